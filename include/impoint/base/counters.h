@@ -1,0 +1,37 @@
+#ifndef impoint_base_counters_h
+#define impoint_base_counters_h
+
+#include <cstddef>
+
+namespace Impoint
+{
+  /**
+   * What a run has done, as printed in summary.json: the proof that a scene
+   * skips what it does not need.
+   */
+  struct Counters
+  {
+    std::size_t steps             = 0;
+    std::size_t halved_steps      = 0;
+    std::size_t sorts             = 0; // steps in which some point changed its cell
+    std::size_t patterns          = 0; // sparsity patterns built
+    std::size_t tangents          = 0;
+    std::size_t residuals         = 0;
+    std::size_t factorisations    = 0; // or preconditioners set up
+    std::size_t linear_iterations = 0;
+    std::size_t newton_iterations = 0;
+    std::size_t projections       = 0; // of mass and momentum
+    std::size_t visited_cells     = 0; // in the last step
+    std::size_t visited_nodes     = 0; // in the last step
+    std::size_t starved_nodes     = 0; // held up by the regularisation, last step
+  };
+
+  /** Wall-clock seconds of a run's phases, as printed in summary.json. */
+  struct Seconds
+  {
+    double total = 0, setup = 0, locate = 0, pattern = 0, project = 0,
+           assembly = 0, solve = 0, update = 0, output = 0;
+  };
+} // namespace Impoint
+
+#endif

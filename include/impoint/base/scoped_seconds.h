@@ -1,0 +1,33 @@
+#ifndef impoint_base_scoped_seconds_h
+#define impoint_base_scoped_seconds_h
+
+#include <chrono>
+
+namespace Impoint
+{
+  /** Adds the wall-clock seconds of its life to @p accumulator. */
+  class ScopedSeconds
+  {
+  public:
+    explicit ScopedSeconds(double &accumulator)
+      : accumulator(accumulator)
+      , start(std::chrono::steady_clock::now())
+    {}
+
+    ~ScopedSeconds()
+    {
+      accumulator +=
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+          .count();
+    }
+
+    ScopedSeconds(const ScopedSeconds &) = delete;
+    ScopedSeconds &operator=(const ScopedSeconds &) = delete;
+
+  private:
+    double &                                    accumulator;
+    const std::chrono::steady_clock::time_point start;
+  };
+} // namespace Impoint
+
+#endif

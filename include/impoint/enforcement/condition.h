@@ -1,0 +1,81 @@
+#ifndef impoint_enforcement_condition_h
+#define impoint_enforcement_condition_h
+
+#include <impoint/base/expression.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace Impoint
+{
+  using namespace dealii;
+
+  class ParameterFile;
+
+  /** What a boundary prescribes, and how it is enforced: the entries of
+   * "Boundaries/<name>" that are not its shape. */
+  struct ConditionParameters
+  {
+    void declare(ParameterFile &file, const std::string &name);
+    void check(const ParameterFile &file,
+               const unsigned int   dim,
+               const bool           conforming) const;
+
+    bool is_active(const double start, const double end) const
+    {
+      const double middle = 0.5 * (start + end);
+      return middle >= from && middle < until;
+    }
+
+    std::string name, section;
+
+    std::string constraint  = "fixed"; // fixed|slip|roller|traction
+    std::string components;            // of a roller
+    std::string enforcement = "projected penalty";
+    double      factor      = 1e4;
+    std::string factor_unit = "E/h"; // E/h|Pa/m
+    bool        small_cut_rule = false;
+    std::string normals        = "automatic"; // automatic|particle|nodal
+    std::string value_kind     = "displacement"; // displacement|velocity
+    std::string motion         = "with the value";
+    std::vector<double> rotation_centre, rotation_axis;
+    double              from  = std::numeric_limits<double>::lowest();
+    double              until = std::numeric_limits<double>::max();
+  };
+
+  /**
+   * The motion that a boundary prescribes: a displacement or velocity given
+   * as expression of place and time, and a rotation about a fixed axis.
+   */
+  template <int dim>
+  class PrescribedMotion
+  {
+  public:
+    PrescribedMotion(const ParameterFile &      file,
+                     const ConditionParameters &parameters);
+
+    bool is_zero() const { return value.is_zero() && angle.is_zero(); }
+    bool rotates() const { return !angle.is_zero(); }
+
+    /** Displacement from time @p start to @p end of what is at @p x at the
+     * start, and was at @p first when the run began. */
+    Tensor<1, dim> increment(const Point<dim> &x,
+                             const Point<dim> &first,
+                             const double      start,
+                             const double      end) const;
+
+    /** Rotation from @p start to @p end. */
+    Tensor<2, dim> rotation(const double start, const double end) const;
+
+  private:
+    Expression<dim> value, angle;
+    bool            is_velocity;
+    Point<dim>      centre;
+    Tensor<1, 3>    axis;
+  };
+} // namespace Impoint
+
+#endif

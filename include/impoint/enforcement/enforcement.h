@@ -1,0 +1,111 @@
+#ifndef impoint_enforcement_enforcement_h
+#define impoint_enforcement_enforcement_h
+
+#include <impoint/enforcement/condition.h>
+#include <impoint/grid/active_nodes.h>
+#include <impoint/particles/boundary_particles.h>
+#include <impoint/terms/term.h>
+
+#include <memory>
+
+namespace Impoint
+{
+  /** Methods that impose conditions on nonconforming boundaries. */
+  namespace Enforcement
+  {
+    /** What all methods are told at the start of a step. */
+    template <int dim>
+    struct Step
+    {
+      double                  start = 0, end = 0; // time [s]
+      double                  young = 0;          // [Pa], the stiffest material
+      const ActiveNodes<dim> *active = nullptr;
+    };
+
+    /** Strength with which a method adds itself to a matrix. */
+    enum class Strength
+    {
+      exact,   // the tangent
+      moderate // what the preconditioner's V-cycle can bear: 10 E/h
+    };
+
+    /**
+     * One nonconforming boundary and how its condition is imposed. A new
+     * method is one file and one line in create().
+     *
+     * All methods contribute cell by cell, on the cells of their particles.
+     */
+    template <int dim>
+    class Method
+    {
+    public:
+      Method(const ConditionParameters &             parameters,
+             PrescribedMotion<dim>                   motion,
+             std::unique_ptr<BoundaryParticles<dim>> particles);
+      virtual ~Method() = default;
+
+      const BoundaryParticles<dim> &  particles() const { return *boundary; }
+      BoundaryParticles<dim> &        particles() { return *boundary; }
+      const ConditionParameters &     parameters() const { return condition; }
+
+      /** Whether the condition acts in the step. */
+      bool is_active() const { return active_now; }
+
+      /** Prepares a step: the wall's increments, normals. Collective. */
+      virtual void begin_step(const Step<dim> &step);
+
+      /** Adds the particles of range @p r (PointCloud::ranges()). */
+      virtual void add(const unsigned int r,
+                       const Strength     strength,
+                       CellSystem &       system) const = 0;
+
+      /** Whether add() with a matrix makes the tangent stiffer, so that the
+       * preconditioner has to know these cells. */
+      virtual bool constrains() const { return true; }
+
+      /** Whether multipliers() changes anything: one more iteration. */
+      virtual bool augmented() const { return false; }
+
+      /** Multipliers from the gaps of a cell's displacements. */
+      virtual void update_multipliers(const unsigned int r, const double *u);
+
+      /** Stores gap, force and multiplier of the converged step for range
+       * @p r; @p u is null where the cell is not active. */
+      virtual void end_step(const unsigned int r, const double *u) = 0;
+
+      /** Where the particles will be at the end of the step: of the particles
+       * in range @p r, with the cell's displacements @p u. */
+      void new_places(const unsigned int       r,
+                      const double *           u,
+                      std::vector<Point<dim>> &places) const;
+
+      /** Moves the particles to @p places, which PointCloud::find() was asked
+       * for before. Collective. */
+      void finish_step(const std::vector<Point<dim>> &places);
+
+      /** Whether particles move in this step. */
+      bool moves() const;
+
+    protected:
+      /** Displacement of the material at particle @p b. */
+      Tensor<1, dim> displacement(const unsigned int b,
+                                  const unsigned int n,
+                                  const double *     u) const;
+
+      ConditionParameters                     condition;
+      PrescribedMotion<dim>                   motion;
+      std::unique_ptr<BoundaryParticles<dim>> boundary;
+      Step<dim>                               current;
+      bool                                    active_now = false;
+    };
+
+    /** The method named by @p parameters. Throws InputError. */
+    template <int dim>
+    std::unique_ptr<Method<dim>>
+    create(const ParameterFile &                   file,
+           const ConditionParameters &             parameters,
+           std::unique_ptr<BoundaryParticles<dim>> particles);
+  } // namespace Enforcement
+} // namespace Impoint
+
+#endif

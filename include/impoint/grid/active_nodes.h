@@ -1,0 +1,127 @@
+#ifndef impoint_grid_active_nodes_h
+#define impoint_grid_active_nodes_h
+
+#include <impoint/base/block_pattern.h>
+#include <impoint/grid/basis.h>
+
+#include <deal.II/base/partitioner.h>
+
+#include <memory>
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * The nodes and cells that take part in a step, in a compact numbering, and
+   * the pattern and scatter maps of matrices on them. Rebuilt only when the
+   * set of active cells changes; costs nothing for the rest of the grid.
+   *
+   * Numbering of nodes on a rank: the ones it owns first, then ghosts by
+   * their global number. Unknown d of node i is dim * i + d.
+   */
+  template <int dim>
+  class ActiveNodes
+  {
+  public:
+    explicit ActiveNodes(const Basis<dim> &basis);
+
+    /**
+     * Makes active: @p material_cells and those of @p boundary_cells that
+     * share a node with a material cell of any rank (both: own cells,
+     * increasing, without duplicates; a cell may be in both). Collective.
+     * Returns whether anything changed on any rank since the last call.
+     */
+    bool reinit(const std::vector<unsigned int> &material_cells,
+                const std::vector<unsigned int> &boundary_cells);
+
+    /** Active cells: the material cells in their order, then boundary cells
+     * without material. */
+    unsigned int n_cells() const { return cells.size(); }
+    unsigned int n_material_cells() const { return n_material; }
+    unsigned int cell(const unsigned int k) const { return cells[k]; }
+
+    /** Place of the grid's cell @p c among the active ones, or nowhere. */
+    unsigned int position(const unsigned int c) const { return positions[c]; }
+
+    /** Compact nodes of active cell @p k. */
+    ArrayView<const unsigned int> nodes(const unsigned int k) const
+    {
+      return ArrayView<const unsigned int>(cell_nodes.data() + first_node[k],
+                                           first_node[k + 1] - first_node[k]);
+    }
+
+    unsigned int n_nodes() const { return grid_nodes.size(); }
+    unsigned int n_owned_nodes() const { return n_owned; }
+
+    /** Number of the basis' node behind compact node @p i. */
+    unsigned int grid_node(const unsigned int i) const { return grid_nodes[i]; }
+
+    /** Compact number of the basis' @p node, or nowhere. */
+    unsigned int compact(const unsigned int node) const
+    {
+      return compact_of[node];
+    }
+
+    /** Whether some material cell of any rank holds compact node @p i. */
+    bool has_material(const unsigned int i) const { return with_material[i]; }
+
+    /** Number of compact node @p i among all ranks' active nodes. */
+    types::global_dof_index global_number(const unsigned int i) const
+    {
+      return global_numbers[i];
+    }
+
+    /** Layout of distributed vectors of dim unknowns a node, and of one. */
+    const std::shared_ptr<const Utilities::MPI::Partitioner> &
+    unknowns() const
+    {
+      return unknown_partitioner;
+    }
+    const std::shared_ptr<const Utilities::MPI::Partitioner> &
+    scalars() const
+    {
+      return node_partitioner;
+    }
+
+    /** Couplings of this rank's active cells (rows of ghosts included). */
+    const BlockPattern &pattern() const { return block_pattern; }
+
+    /** For active cell @p k with n nodes: block (a, b) of its matrix goes to
+     * block scatter(k)[a * n + b] of the pattern. */
+    const unsigned int *scatter(const unsigned int k) const
+    {
+      return scatter_map.data() + first_block[k];
+    }
+
+    const Basis<dim> &basis() const { return functions; }
+
+  private:
+    void activate(const std::vector<unsigned int> &material_cells,
+                  const std::vector<unsigned int> &boundary_cells);
+    void number();
+    void build_pattern();
+    std::vector<char>
+    shared_marks(const std::vector<unsigned int> &marked,
+                 const std::vector<unsigned int> &wanted) const;
+
+    const Basis<dim> &        functions;
+    std::vector<unsigned int> last_material, last_boundary;
+    bool                      fresh = true;
+
+    std::vector<unsigned int> cells;
+    unsigned int              n_material = 0;
+    std::vector<unsigned int> positions;  // per cell of the grid
+    std::vector<unsigned int> compact_of; // per node of the basis
+    std::vector<unsigned int> grid_nodes;
+    std::vector<char>         with_material;
+    std::vector<types::global_dof_index> global_numbers;
+    unsigned int                         n_owned = 0;
+    std::vector<std::size_t>  first_node, first_block; // per active cell
+    std::vector<unsigned int> cell_nodes, scatter_map;
+    BlockPattern              block_pattern;
+    std::shared_ptr<const Utilities::MPI::Partitioner> unknown_partitioner,
+      node_partitioner;
+  };
+} // namespace Impoint
+
+#endif

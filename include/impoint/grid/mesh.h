@@ -1,0 +1,84 @@
+#ifndef impoint_grid_mesh_h
+#define impoint_grid_mesh_h
+
+#include <deal.II/grid/tria.h>
+
+#include <string>
+#include <vector>
+
+namespace Impoint
+{
+  using namespace dealii;
+
+  class ParameterFile;
+
+  /** A mesh, of the background grid or of a body or surface. */
+  struct MeshParameters
+  {
+    /** Declares the entries in @p section of @p file. */
+    void declare(ParameterFile     &file,
+                 const std::string &section,
+                 const std::string &default_generator,
+                 const std::string &default_arguments);
+
+    /** Throws InputError for what cannot be in @p dim space dimensions. */
+    void check(const ParameterFile &file, const unsigned int dim) const;
+
+    std::string generator; // of dealii::GridGenerator
+    std::string arguments; // separated by ':'
+    std::string file;      // a mesh file instead of a generator
+    // as made|triangles|8 triangles|tetrahedra|24 tetrahedra
+    std::string         cells      = "as made";
+    double              distortion = 0; // of interior vertices, in edge lengths
+    unsigned int        refinements = 0;
+    double              scale       = 1;
+    std::vector<double> shift;
+    double              rotation = 0; // degrees
+    std::vector<double> axis;         // 3D: of the rotation
+    std::string         section;      // where the entries stand
+
+    /** Whether the cells are split into triangles or tetrahedra. */
+    bool split() const
+    {
+      return cells != "as made";
+    }
+
+  private:
+    void check_source(const ParameterFile &file) const;
+  };
+
+  struct GridParameters : public MeshParameters
+  {
+    void declare(ParameterFile &file);
+    void check(const ParameterFile &file, const unsigned int dim) const;
+
+    // expression of x: cells whose centre has a value > 0 are refined further
+    std::string  refine_where;
+    unsigned int refine_times = 1;
+  };
+
+  /**
+   * Makes the mesh that @p parameters describe but for the refinements:
+   * generated or read, scaled, rotated, shifted. @p mesh may be a
+   * parallel::distributed::Triangulation if the cells are not split.
+   * Simplices come out refined and distorted: nothing is left for
+   * refine_mesh(). Throws InputError. @p spacedim > dim makes a surface.
+   */
+  template <int dim, int spacedim>
+  void make_coarse_mesh(const ParameterFile          &file,
+                        const MeshParameters         &parameters,
+                        Triangulation<dim, spacedim> &mesh);
+
+  /** Refines what make_coarse_mesh() made as often as asked for. */
+  template <int dim, int spacedim>
+  void refine_mesh(const MeshParameters         &parameters,
+                   Triangulation<dim, spacedim> &mesh);
+
+  /** Both steps: the mesh that @p parameters describe. */
+  template <int dim, int spacedim>
+  void make_mesh(const ParameterFile          &file,
+                 const MeshParameters         &parameters,
+                 Triangulation<dim, spacedim> &mesh);
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,32 @@
+#ifndef impoint_measurements_impulse_h
+#define impoint_measurements_impulse_h
+
+#include <impoint/measurements/named_values.h>
+
+namespace Impoint
+{
+  namespace Measurements
+  {
+    /**
+     * Integral over time of a boundary's force on the material, by the
+     * trapezoidal rule; the force at the start counts as zero.
+     *
+     * Results: "NAME I_x", "NAME I_y"(, "NAME I_z") [Ns].
+     */
+    template <int dim>
+    class Impulse : public NamedValues<dim>
+    {
+    public:
+      Impulse(const ParameterFile         &file,
+              const MeasurementParameters &parameters);
+
+      void end_step(const State<dim> &state) override;
+
+    private:
+      const std::string boundary;
+      Tensor<1, dim>    last_force, impulse;
+    };
+  } // namespace Measurements
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,86 @@
+#ifndef impoint_measurements_measurement_h
+#define impoint_measurements_measurement_h
+
+#include <impoint/enforcement/enforcement.h>
+#include <impoint/measurements/measurement_parameters.h>
+#include <impoint/output/run_record.h>
+#include <impoint/particles/material_points.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Impoint
+{
+  /** What a scene measures: errors, probes, reactions, paths. */
+  namespace Measurements
+  {
+    /** What a boundary does to the material. */
+    template <int dim>
+    struct BoundaryForce
+    {
+      std::string    name;
+      Tensor<1, dim> force;  // [N]
+      Tensor<1, 3>   moment; // about the origin [Nm]; 2D: z only
+    };
+
+    /** What a measurement may look at. */
+    template <int dim>
+    struct State
+    {
+      const MaterialPoints<dim>                                    &points;
+      const std::vector<std::unique_ptr<Enforcement::Method<dim>>> &methods;
+      const ActiveNodes<dim>                                       &active;
+
+      double time      = 0; // at the end of the step [s]
+      double time_step = 0; // [s]
+
+      std::vector<BoundaryForce<dim>> forces; // of every boundary, as listed in
+                                              // the scene; sums of all ranks
+      std::vector<double> residuals; // relative, of the step's iteration
+    };
+
+    /**
+     * One quantity that a scene measures. A new one is one file and one line in
+     * create(). Everything is collective, and all ranks get the same numbers,
+     * whatever their number.
+     */
+    template <int dim>
+    class Measurement
+    {
+    public:
+      virtual ~Measurement() = default;
+
+      /** Before the first step: points are placed, no nodes are active yet. */
+      virtual void start(const State<dim> & /*state*/)
+      {}
+
+      /** A step converged, points have not moved yet: @p u, ghosts up to date,
+       * is its displacement on the active nodes. */
+      virtual void
+      follow(const State<dim> & /*state*/,
+             const LinearAlgebra::distributed::Vector<double> & /*u*/)
+      {}
+
+      /** Points are at their new places with their new state. */
+      virtual void end_step(const State<dim> & /*state*/)
+      {}
+
+      /** Adds the columns of history.csv. */
+      virtual void columns(HistoryRow & /*row*/) const
+      {}
+
+      /** Adds the lines of the table of results. */
+      virtual void results(std::vector<Result> &results) const = 0;
+    };
+
+    /** What @p parameters, already checked, ask for. Throws InputError. */
+    template <int dim>
+    std::unique_ptr<Measurement<dim>>
+    create(const ParameterFile &file, const MeasurementParameters &parameters);
+  } // namespace Measurements
+} // namespace Impoint
+
+#endif

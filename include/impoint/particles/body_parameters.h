@@ -1,0 +1,73 @@
+#ifndef impoint_particles_body_parameters_h
+#define impoint_particles_body_parameters_h
+
+#include <impoint/grid/mesh.h>
+
+#include <string>
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * A body: its shape, how points fill it, its density and initial state.
+   *
+   * The entries "Initial velocity" [m/s], "Body force" (per mass, [m/s2]) and
+   * "Initial stress" ([Pa], Voigt order of base/voigt.h) are declared here and
+   * read by Expression from the section; empty means zero.
+   */
+  struct BodyParameters
+  {
+    void declare(ParameterFile &file, const std::string &name);
+
+    /** Throws InputError for entries that clash in @p dim dimensions. */
+    void check(const ParameterFile &file, const unsigned int dim) const;
+
+    std::string name;    // "beam"
+    std::string section; // "Bodies/beam"
+
+    MeshParameters mesh; // the body's shape, section "Bodies/beam/Mesh"
+
+    std::string  points = "body mesh"; // body mesh|clipped
+    unsigned int rule   = 2; // a direction: Gauss points, or sub-cells
+    unsigned int points_per_simplex = 0;          // 0: dim + 1
+    std::string  piece              = "centroid"; // clipped: centroid|gauss
+    std::string  outline; // clipped: 2D polygon "x y; ..."; empty: the mesh
+
+    double density   = 0; // [kg/m3]
+    double thickness = 1; // 2D [m]
+
+  private:
+    void check_outline(const ParameterFile &file, const unsigned int dim) const;
+    void check_points(const ParameterFile &file, const unsigned int dim) const;
+  };
+
+  /** A nonconforming boundary: its shape and its particles. Or the sides of the
+   * grid with an id, if it is conforming. */
+  struct BoundaryParameters
+  {
+    void declare(ParameterFile &file, const std::string &name);
+
+    /** Throws InputError for entries that clash in @p dim dimensions. */
+    void check(const ParameterFile &file, const unsigned int dim) const;
+
+    std::string name;    // "clamp"
+    std::string section; // "Boundaries/clamp"
+
+    std::string  kind        = "nonconforming"; // nonconforming|conforming
+    unsigned int boundary_id = 0;               // conforming
+
+    // shape of a nonconforming one: corners, or a surface mesh
+    std::string    polyline;
+    MeshParameters mesh;                      // section ".../Mesh"
+    double         segment_length        = 0; // 0: as given
+    unsigned int   particles_per_segment = 2;
+    std::string    rule                  = "equal"; // equal|gauss|cut
+    bool           flip_normal           = false;
+
+  private:
+    void check_conforming(const ParameterFile &file) const;
+    void check_shape(const ParameterFile &file, const unsigned int dim) const;
+  };
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,77 @@
+#ifndef impoint_particles_boundary_particles_h
+#define impoint_particles_boundary_particles_h
+
+#include <impoint/particles/point_cloud.h>
+#include <impoint/particles/seeding.h>
+
+#include <string>
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * The particles of one nonconforming boundary: where it is, which way it
+   * faces, and the state of its condition.
+   */
+  template <int dim>
+  class BoundaryParticles : public PointCloud<dim>
+  {
+  public:
+    /** Slots of a particle's state in data(b). */
+    struct Slots
+    {
+      Slots();
+
+      PropertyLayout layout;
+      unsigned int   x;          // place of the wall [m]
+      unsigned int   start;      // place at the start of the run
+      unsigned int   normal;     // unit, out of the material
+      unsigned int   area;       // [m2], in 2D times the thickness
+      unsigned int   gap;        // material minus wall, total; slip: [0] normal
+      unsigned int   increment;  // of the wall in this step
+      unsigned int   multiplier; // of an augmented condition; slip: [0]
+      unsigned int   force;      // on the material [N], end of the last step
+    };
+
+    BoundaryParticles(const Basis<dim>                               &basis,
+                      const std::string                              &name,
+                      const std::vector<SeededBoundaryParticle<dim>> &seeds,
+                      const double thickness);
+
+    const std::string &name() const
+    {
+      return boundary_name;
+    }
+    const Slots &slots() const
+    {
+      return slot;
+    }
+
+    Tensor<1, dim> vector(const unsigned int b, const unsigned int at) const
+    {
+      Tensor<1, dim> value;
+      for (unsigned int d = 0; d < dim; ++d)
+        value[d] = this->data(b)[at + d];
+      return value;
+    }
+
+    void set_vector(const unsigned int    b,
+                    const unsigned int    at,
+                    const Tensor<1, dim> &value)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        this->data(b)[at + d] = value[d];
+    }
+
+    double area(const unsigned int b) const
+    {
+      return this->data(b)[slot.area];
+    }
+
+  private:
+    std::string boundary_name;
+    Slots       slot;
+  };
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,122 @@
+#ifndef impoint_particles_material_points_h
+#define impoint_particles_material_points_h
+
+#include <impoint/materials/material.h>
+#include <impoint/particles/point_cloud.h>
+
+#include <memory>
+#include <vector>
+
+namespace Impoint
+{
+  /** Which parts of a material point's state a scene needs at all. */
+  struct CarriedState
+  {
+    bool         dynamic        = false; // velocity, acceleration
+    bool         initial_stress = false;
+    unsigned int n_history      = 0;
+  };
+
+  /**
+   * The material points: where each part of their state lies in data(), and
+   * which material each is made of.
+   */
+  template <int dim>
+  class MaterialPoints : public PointCloud<dim>
+  {
+  public:
+    using Material = Materials::Material<dim>;
+
+    /** Slots of a point's state in data(p). */
+    struct Slots
+    {
+      explicit Slots(const CarriedState &carried);
+
+      PropertyLayout layout; // filled by the next members, in this order
+      unsigned int   x;      // place [m]
+      unsigned int   u;      // displacement since the start [m]
+      unsigned int   F;      // deformation gradient, row-major dim x dim
+      unsigned int   stress; // Kirchhoff stress, Voigt; then its zz in 2D [Pa]
+      unsigned int   mass;   // [kg]
+      unsigned int   volume; // at the start [m3]
+      unsigned int   body;   // number
+      unsigned int   v, a;   // velocity, acceleration; dynamic scenes only
+      unsigned int   initial_stress; // second Piola-Kirchhoff, Voigt
+      unsigned int   history;
+    };
+
+    MaterialPoints(const Basis<dim>                      &basis,
+                   const CarriedState                    &carried,
+                   std::vector<std::shared_ptr<Material>> materials);
+
+    const Slots &slots() const
+    {
+      return slot;
+    }
+    const CarriedState &carried() const
+    {
+      return carried_state;
+    }
+
+    unsigned int body(const unsigned int p) const
+    {
+      return static_cast<unsigned int>(this->data(p)[slot.body]);
+    }
+    const Material &material(const unsigned int p) const
+    {
+      return *materials[body(p)];
+    }
+    const std::vector<std::shared_ptr<Material>> &all_materials() const
+    {
+      return materials;
+    }
+
+    Tensor<1, dim> vector(const unsigned int p, const unsigned int at) const
+    {
+      Tensor<1, dim> value;
+      for (unsigned int d = 0; d < dim; ++d)
+        value[d] = this->data(p)[at + d];
+      return value;
+    }
+
+    Tensor<2, dim> deformation_gradient(const unsigned int p) const
+    {
+      Tensor<2, dim> F;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          F[i][j] = this->data(p)[slot.F + i * dim + j];
+      return F;
+    }
+
+    /** Stress at the end of a step with displacement gradient @p grad_u (at
+     * the places at its start); with the prescribed initial stress. F is that
+     * at the end. @p new_history may be null. */
+    void respond(const unsigned int           p,
+                 const Tensor<2, dim>        &grad_u,
+                 const bool                   tangent_wanted,
+                 Materials::Deformation<dim> &deformation,
+                 Materials::Response<dim>    &response,
+                 double                      *new_history) const;
+
+    /** Largest Young's modulus of all materials: the scale of penalties. */
+    double young() const;
+
+    bool small_strain() const
+    {
+      return all_small_strain;
+    }
+    bool constant_tangent() const
+    {
+      return all_constant;
+    }
+
+  private:
+    Slots                                  slot;
+    CarriedState                           carried_state;
+    std::vector<std::shared_ptr<Material>> materials;
+    bool                                   all_small_strain = true;
+    bool                                   all_constant     = true;
+  };
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,32 @@
+#ifndef impoint_particles_numbering_h
+#define impoint_particles_numbering_h
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/cell_id.h>
+
+#include <vector>
+
+namespace Impoint
+{
+  using namespace dealii;
+
+  /** Some particles that are made together: of a part of a shape (0 if it has
+   * none) in a cell. */
+  struct ParticleGroup
+  {
+    unsigned int part = 0;
+    CellId       cell;
+    unsigned int n_particles = 0;
+  };
+
+  /**
+   * The number of the first particle of each of this rank's @p groups, when the
+   * particles of all ranks are counted by part and cell: the same on any number
+   * of ranks. Collective.
+   */
+  std::vector<std::size_t>
+  first_numbers(const std::vector<ParticleGroup> &groups,
+                const MPI_Comm                    communicator);
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,152 @@
+#ifndef impoint_particles_point_cloud_h
+#define impoint_particles_point_cloud_h
+
+#include <impoint/grid/basis.h>
+#include <impoint/particles/property_layout.h>
+
+#include <deal.II/particles/property_pool.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * Particles of one kind in the grid's cells: a Particles::ParticleHandler
+   * with what it takes to go over its particles cell by cell at full speed.
+   *
+   * Particles are numbered 0 ... n() - 1 on this rank, those of a cell
+   * together, cells increasing. Numbers and data() pointers change whenever a
+   * particle changes its cell; id() stays. Nothing outside of this class
+   * sorts, moves or counts particles.
+   */
+  template <int dim>
+  class PointCloud
+  {
+  public:
+    /** The particles [begin, end) lie in cell. */
+    struct Range
+    {
+      unsigned int cell, begin, end;
+    };
+
+    /** A particle to insert; properties in the order of the layout. */
+    struct NewParticle
+    {
+      unsigned int          cell;
+      types::particle_index id;
+      std::vector<double>   properties;
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &cell &id &properties;
+      }
+    };
+
+    /** The particle's place must be the first field of @p layout. */
+    PointCloud(const Basis<dim> &basis, const PropertyLayout &layout);
+    ~PointCloud();
+    PointCloud(PointCloud &&) noexcept;
+
+    /** Inserts particles into this rank's own cells. Collective. */
+    void insert(const std::vector<NewParticle> &particles);
+
+    unsigned int n() const
+    {
+      return states.size();
+    }
+    types::particle_index n_global() const;
+
+    const std::vector<Range> &ranges() const
+    {
+      return cell_ranges;
+    }
+    std::vector<unsigned int> cells() const;
+
+    double *data(const unsigned int p)
+    {
+      return states[p];
+    }
+    const double *data(const unsigned int p) const
+    {
+      return states[p];
+    }
+
+    types::particle_index id(const unsigned int p) const
+    {
+      return ids[p];
+    }
+
+    Point<dim> position(const unsigned int p) const
+    {
+      Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = states[p][d];
+      return x;
+    }
+
+    /** Support of particle @p p (see Basis::evaluate()). */
+    const double *support(const unsigned int p) const
+    {
+      return supports.data() + first_support[p];
+    }
+
+    /**
+     * Finds the cells of @p new_places, one for each particle, and remembers
+     * them for move(). Throws StepFailed on every rank, with nothing changed,
+     * if one of them lies outside of the grid. Collective.
+     */
+    void find(const std::vector<Point<dim>> &new_places);
+
+    /**
+     * After the particles' places were set to what find() was asked for: puts
+     * those that left their cell into the new one (on other ranks, too) and
+     * renews all supports. Returns whether any particle of any rank changed
+     * its cell. Collective.
+     */
+    bool move();
+
+    const PropertyLayout &layout() const
+    {
+      return property_layout;
+    }
+
+    std::size_t memory_consumption() const;
+
+  private:
+    struct Handler; // Particles::ParticleHandler
+
+    /** A particle that changes its cell. */
+    struct Move
+    {
+      unsigned int particle, cell; // cell on the rank it goes to
+      unsigned int rank;
+    };
+
+    void find_strays(const std::vector<Point<dim>>   &new_places,
+                     const std::vector<unsigned int> &strays);
+    std::vector<NewParticle>
+         take_out(std::map<unsigned int, std::vector<NewParticle>> &for_others);
+    void put_in(const std::vector<NewParticle> &particles);
+    void list(std::vector<unsigned int> occupied_cells);
+    void evaluate_supports();
+
+    const Basis<dim>                  &basis;
+    PropertyLayout                     property_layout;
+    unsigned int                       reference_slot;
+    std::unique_ptr<Handler>           handler;
+    std::vector<Range>                 cell_ranges;
+    std::vector<double *>              states;
+    std::vector<types::particle_index> ids;
+    std::vector<std::size_t>           first_support;
+    std::vector<double>                supports;
+
+    // found by find(), used by move()
+    std::vector<Point<dim>> found_references;
+    std::vector<Move>       moves;
+  };
+} // namespace Impoint
+
+#endif

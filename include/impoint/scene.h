@@ -1,0 +1,64 @@
+#ifndef impoint_scene_h
+#define impoint_scene_h
+
+#include <impoint/enforcement/condition.h>
+#include <impoint/measurements/measurement_parameters.h>
+#include <impoint/particles/body_parameters.h>
+#include <impoint/solver/inertia.h>
+#include <impoint/solver/linear_solver.h>
+#include <impoint/solver/newton.h>
+
+#include <deque>
+#include <string>
+#include <vector>
+
+namespace Impoint
+{
+  class ParameterFile;
+
+  /** What a run writes, and what it tells on the terminal. */
+  struct OutputParameters
+  {
+    void declare(ParameterFile &file);
+
+    std::string  folder    = "output";
+    std::string  verbosity = "normal"; // silent|results|normal|talkative
+    unsigned int every     = 1; // steps between pictures; 0: none
+  };
+
+  /**
+   * All parameters of a scene: the module's structs, in the order of the
+   * computation. Declares what the file's lists of names call for, takes over
+   * what the user set, and checks what clashes.
+   */
+  template <int dim>
+  struct Scene
+  {
+    /** Throws InputError. */
+    explicit Scene(ParameterFile &file);
+
+    /** Declares every entry of the scenes that @p file may be. */
+    static void declare(ParameterFile &file);
+
+    std::string           title;
+    GridParameters        grid;
+    TimeParameters        time;
+    NewtonParameters      newton;
+    LinearSolverParameters linear_solver;
+    OutputParameters      output;
+
+    // deque: the handler keeps addresses of members
+    std::deque<BodyParameters>        bodies;
+    std::deque<BoundaryParameters>    boundaries;
+    std::deque<ConditionParameters>   conditions; // of the boundaries
+    std::deque<MeasurementParameters> measurements;
+
+  private:
+    Scene() = default;
+    void declare_entries(ParameterFile &file);
+    void check(const ParameterFile &file) const;
+    void check_support(const ParameterFile &file) const;
+  };
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,71 @@
+#ifndef impoint_solver_band_preconditioner_h
+#define impoint_solver_band_preconditioner_h
+
+#include <impoint/solver/linear_solver.h>
+#include <impoint/solver/multigrid.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * Multiplicative Schwarz for matrices that are spoilt for multigrid near
+   * surfaces only: by an enforcement of any stiffness, by slivers, by starved
+   * nodes. These nodes are the core; the band is the core and one layer of
+   * neighbours.
+   *
+   * One application solves exactly on the band, does a V-cycle for the
+   * moderate matrix on all nodes but slivers, and solves on the band again.
+   * With B the band and O the other nodes, that is
+   *   z_O = V (r_O - A_OB A_BB^-1 r_B),  z_B = A_BB^-1 (r_B - A_BO z_O):
+   * what the V-cycle says of the band itself is superseded by the last solve.
+   */
+  template <int dim>
+  class BandPreconditioner : public Preconditioner
+  {
+  public:
+    /** A node is a sliver below @p sliver times the median diagonal. */
+    BandPreconditioner(const double sliver);
+
+    /** Tells that the pattern changed: the next renew() partitions anew. */
+    void new_pattern();
+
+    /** Whether what is kept was made for the same enforced nodes. */
+    bool serves(const LinearProblem<dim> &problem) const;
+
+    /** Factorises and makes the hierarchy. Returns the node with a pivot that
+     * is not positive, if any. */
+    std::optional<unsigned int> renew(const LinearProblem<dim> &problem);
+
+    void vmult(const std::vector<double> &r,
+               std::vector<double>       &z) const override;
+
+    /** "band + geometric multigrid" or the like. */
+    std::string description() const;
+
+  private:
+    void find_slivers(const BlockMatrix<dim> &matrix);
+    void partition(const LinearProblem<dim> &problem);
+    void solve_outside(std::vector<double> &residual) const;
+
+    const double      sliver_threshold;
+    bool              partitioned = false;
+    std::vector<char> enforced, slivers;
+
+    BlockSubmatrix<dim> band;     // A_BB
+    BlockSubmatrix<dim> coupling; // A_BO, columns numbered as in A
+    BlockSubmatrix<dim> outer;    // the moderate matrix without slivers
+
+    DirectSolver<dim>            band_factor;
+    std::unique_ptr<VCycle<dim>> v_cycle; // none if the band is everything
+    std::string                  v_cycle_name;
+
+    mutable std::vector<double> residual, band_right, band_solution;
+    mutable std::vector<double> outer_right, outer_solution;
+  };
+} // namespace Impoint
+
+#endif

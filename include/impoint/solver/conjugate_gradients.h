@@ -1,0 +1,52 @@
+#ifndef impoint_solver_conjugate_gradients_h
+#define impoint_solver_conjugate_gradients_h
+
+#include <impoint/solver/block_matrix.h>
+
+#include <vector>
+
+namespace Impoint
+{
+  /** A symmetric positive definite approximation of an inverse. */
+  class Preconditioner
+  {
+  public:
+    virtual ~Preconditioner() = default;
+
+    /** z = M r; z has the size of r. */
+    virtual void vmult(const std::vector<double> &r,
+                       std::vector<double>       &z) const = 0;
+  };
+
+  struct IterationControl
+  {
+    /** Reduction of the preconditioned residual sqrt(r . M r) to reach. */
+    double       tolerance      = 1e-10;
+    unsigned int max_iterations = 500;
+
+    /** Whether to stop as soon as the pace so far shows that max_iterations
+     * will not do (where another preconditioner stands by). */
+    bool give_up_early = false;
+  };
+
+  struct IterationResult
+  {
+    unsigned int iterations = 0;
+    bool         converged  = false;
+    double       reduction  = 1; // of the preconditioned residual
+  };
+
+  /**
+   * Solves A x = b from x = 0. The preconditioned residual decides, for the
+   * residual itself stalls at round-off of the stiffest entries. Throws
+   * StepFailed if A (or M) turns out not to be positive definite.
+   */
+  template <int dim>
+  IterationResult conjugate_gradients(const BlockMatrix<dim>    &matrix,
+                                      const Preconditioner      &preconditioner,
+                                      const std::vector<double> &b,
+                                      const IterationControl    &control,
+                                      std::vector<double>       &x);
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,70 @@
+#ifndef impoint_solver_lattice_coarsening_h
+#define impoint_solver_lattice_coarsening_h
+
+#include <impoint/solver/block_matrix.h>
+
+#include <array>
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * One step of coarsening on a lattice: nodes with even indices stay, the
+   * others interpolate linearly between their even neighbours (all of which
+   * exist on the coarse lattice). The places of all products in P^T A P are
+   * found once, so that values are only streamed.
+   */
+  template <int dim>
+  class LatticeCoarsening
+  {
+  public:
+    using Lattice = std::vector<std::array<int, dim>>;
+
+    LatticeCoarsening(const BlockPattern &pattern, const Lattice &lattice);
+
+    /** coarse = P^T fine P. */
+    void galerkin(const BlockMatrix<dim> &fine, BlockMatrix<dim> &coarse) const;
+
+    /** coarse = P^T fine. */
+    void restrict(const std::vector<double> &fine,
+                  std::vector<double>       &coarse) const;
+
+    /** fine += P coarse. */
+    void prolongate(const std::vector<double> &coarse,
+                    std::vector<double>       &fine) const;
+
+    const BlockPattern &pattern() const; // of the coarse matrix
+    const Lattice      &lattice() const; // of the coarse nodes
+
+  private:
+    /** The transpose of the lists of parents. */
+    struct Children
+    {
+      std::vector<std::size_t>  start; // by coarse nodes
+      std::vector<unsigned int> nodes;
+      std::vector<std::size_t> links; // where the coarse node stands in parents
+    };
+
+    void     find_parents(const Lattice &lattice);
+    Children find_children() const;
+    void     find_half_products(const BlockPattern &fine);
+    void     build_pattern(const Children &children);
+    void     find_targets(const Children &children);
+
+    BlockPattern coarse_pattern;
+    Lattice      coarse_lattice;
+
+    // P by fine nodes
+    std::vector<std::size_t>  parent_start;
+    std::vector<unsigned int> parents;
+    std::vector<double>       weights;
+
+    // A P by fine nodes; where each block of A goes in its row, parent by
+    // parent; where each block of a row goes in P^T A P, parent by parent
+    BlockPattern                half_product;
+    std::vector<unsigned short> half_target;
+    std::vector<unsigned int>   target;
+  };
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,101 @@
+#ifndef impoint_solver_linear_solver_h
+#define impoint_solver_linear_solver_h
+
+#include <impoint/base/counters.h>
+#include <impoint/solver/block_matrix.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Impoint
+{
+  using namespace dealii;
+
+  class ParameterFile;
+
+  struct LinearSolverParameters
+  {
+    void declare(ParameterFile &file);
+
+    std::string  kind             = "automatic"; // automatic|direct|iterative
+    double       tolerance        = 1e-10;
+    unsigned int max_iterations   = 500;
+    double       moderate         = 10.;  // enforcement in the V-cycle, E/h
+    double       sliver           = 1e-2; // of the median diagonal
+    unsigned int renew_iterations = 30;   // old preconditioner kept up to here
+  };
+
+  /**
+   * A symmetric linear problem on the active nodes, as the solver sees it:
+   * dim unknowns a node, conforming conditions already eliminated (rows and
+   * columns zero but for the diagonal).
+   */
+  template <int dim>
+  struct LinearProblem
+  {
+    BlockPattern     pattern;
+    BlockMatrix<dim> matrix;
+
+    /** The same with moderate enforcement, if has_moderate. */
+    BlockMatrix<dim> moderate;
+    bool             has_moderate = false;
+
+    /** Per node: stiffness added to the diagonal in factors and preconditioners
+     * only, never in the matrix (starved nodes); 0 elsewhere. */
+    std::vector<double> regularisation;
+
+    /** Per node: whether a cell with boundary particles holds it. */
+    std::vector<char> enforced;
+
+    std::vector<Point<dim>> points; // of the nodes
+
+    /** Place in the lattice of a Cartesian grid; empty on other grids. */
+    std::vector<std::array<int, dim>> lattice;
+  };
+
+  /**
+   * Solves the linear problems of a run on one process: a direct
+   * factorisation or conjugate gradients with the band preconditioner, chosen
+   * by size and dimension, and keeps either while it serves.
+   */
+  template <int dim>
+  class LinearSolver
+  {
+  public:
+    LinearSolver(const LinearSolverParameters &parameters, Counters &counters);
+    ~LinearSolver();
+
+    /** Tells that the pattern (and with it points, lattice) changed. */
+    void new_pattern(const LinearProblem<dim> &problem);
+
+    /** Whether moderate is wanted for a problem of this size. Without a lattice
+     * iterating pays later: leave that out and moderate may come in vain. */
+    bool iterative(const std::size_t n_unknowns,
+                   const bool        on_lattice = true) const;
+
+    /** Tells that the matrix changed; a factor kept from before may go on
+     * serving as preconditioner. */
+    void new_matrix(const LinearProblem<dim> &problem);
+
+    /**
+     * x = A^-1 b, to the tolerance on the preconditioned residual. Throws
+     * StepFailed if the matrix is singular or the iteration does not converge.
+     */
+    void solve(const LinearProblem<dim>  &problem,
+               const std::vector<double> &b,
+               std::vector<double>       &x);
+
+    /** "CHOLMOD (supernodal)" or "CG, band + geometric multigrid" ... */
+    std::string description() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation;
+  };
+} // namespace Impoint
+
+#endif

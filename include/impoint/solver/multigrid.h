@@ -1,0 +1,88 @@
+#ifndef impoint_solver_multigrid_h
+#define impoint_solver_multigrid_h
+
+#include <impoint/solver/direct_solver.h>
+#include <impoint/solver/lattice_coarsening.h>
+
+#include <memory>
+#include <vector>
+
+namespace Impoint
+{
+  /** A multigrid cycle made for a pattern, with values to be renewed. */
+  template <int dim>
+  class VCycle : public Preconditioner
+  {
+  public:
+    /** Makes smoothers and coarse matrices. The matrix has the pattern given
+     * to the constructor and must live as long as the cycle is used. Throws
+     * StepFailed if it turns out not to be positive definite. */
+    virtual void new_matrix(const BlockMatrix<dim> &matrix) = 0;
+  };
+
+  /** Block Gauss-Seidel sweeps with inverted diagonal blocks. */
+  template <int dim>
+  class GaussSeidel
+  {
+  public:
+    void reinit(const BlockMatrix<dim> &matrix);
+
+    /** x = (D + L)^-1 b: a forward sweep from x = 0. */
+    void forward(const std::vector<double> &b, std::vector<double> &x) const;
+
+    /** r = b - A x after forward(b, x), which is - U x. */
+    void residual(const std::vector<double> &x, std::vector<double> &r) const;
+
+    /** x += (D + U)^-1 (b - A x), row by row. */
+    void backward(const std::vector<double> &b, std::vector<double> &x) const;
+
+  private:
+    void solve_diagonal(const unsigned int row, double *x) const;
+
+    const BlockMatrix<dim>  *matrix = nullptr;
+    std::vector<std::size_t> diagonal; // positions of the diagonal blocks
+    std::vector<double>      inverse;  // of the diagonal blocks
+  };
+
+  /**
+   * Geometric multigrid on a Cartesian lattice: Galerkin products, one forward
+   * and one backward sweep of Gauss-Seidel a level, a factor at the bottom.
+   */
+  template <int dim>
+  class Multigrid : public VCycle<dim>
+  {
+  public:
+    using Lattice = typename LatticeCoarsening<dim>::Lattice;
+
+    /** The nodes of @p pattern have the places @p lattice. */
+    Multigrid(const BlockPattern &pattern, const Lattice &lattice);
+
+    void new_matrix(const BlockMatrix<dim> &matrix) override;
+
+    void vmult(const std::vector<double> &r,
+               std::vector<double>       &z) const override;
+
+  private:
+    struct Level
+    {
+      Level(const BlockPattern &pattern, const Lattice &lattice)
+        : coarsening(pattern, lattice)
+      {}
+
+      GaussSeidel<dim>       smoother;
+      LatticeCoarsening<dim> coarsening;
+      BlockMatrix<dim>       coarse_matrix;
+
+      mutable std::vector<double> residual, coarse_right, coarse_solution;
+    };
+
+    void cycle(const unsigned int         level,
+               const std::vector<double> &b,
+               std::vector<double>       &x) const;
+
+    std::vector<std::unique_ptr<Level>> levels; // finest first
+    DirectSolver<dim>                   bottom;
+  };
+} // namespace Impoint
+
+#endif

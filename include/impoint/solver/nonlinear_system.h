@@ -1,0 +1,148 @@
+#ifndef impoint_solver_nonlinear_system_h
+#define impoint_solver_nonlinear_system_h
+
+#include <impoint/enforcement/conforming.h>
+#include <impoint/enforcement/enforcement.h>
+#include <impoint/particles/material_points.h>
+#include <impoint/solver/gathered_solver.h>
+#include <impoint/solver/inertia.h>
+#include <impoint/terms/empty_cells.h>
+#include <impoint/terms/term.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <memory>
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * Balance of momentum on the active nodes: residual (P Eq. 15) and tangent
+   * (P Eq. 16) of all terms, boundaries included, as functions of the
+   * displacements of the step.
+   */
+  template <int dim>
+  class NonlinearSystem
+  {
+  public:
+    using Vector  = LinearAlgebra::distributed::Vector<double>;
+    using Methods = std::vector<std::unique_ptr<Enforcement::Method<dim>>>;
+
+    NonlinearSystem(const ActiveNodes<dim> &             active,
+                    const MaterialPoints<dim> &          points,
+                    Methods &                            methods,
+                    const Enforcement::Conforming<dim> & conforming,
+                    const LinearSolverParameters &       parameters,
+                    Counters &                           counters,
+                    Seconds &                            seconds);
+
+    /** Terms that act in material cells, added once. */
+    void add_term(std::unique_ptr<Term<dim>> term);
+
+    /** After the set of active cells changed. */
+    void new_active_set();
+
+    /** After points changed their cells: which nodes are starved. */
+    void find_starved_nodes();
+
+    /** Prepares a step. @p external are the loads that do not depend on its
+     * displacements. @p inertia may be null. */
+    void begin_step(const double        start,
+                    const double        end,
+                    const Vector &      external,
+                    const Inertia<dim> *inertia);
+
+    /** Whether one iteration solves the step. */
+    bool is_linear() const;
+
+    /** Whether multipliers change between iterations. */
+    bool is_augmented() const;
+
+    /**
+     * Residual at @p u (ghost values up to date), relative to the forces that
+     * balance in it; and the tangent if wanted. Throws StepFailed on all ranks
+     * if a material has no answer. Collective.
+     */
+    double evaluate(const Vector &u, const bool tangent_wanted);
+
+    /** Residual of the last evaluation. */
+    const Vector &residual() const { return rest; }
+
+    /**
+     * Newton's correction for the last tangent and residual. @p first adds the
+     * displacements that conforming boundaries prescribe. Collective.
+     */
+    void correct(const bool first, Vector &delta);
+
+    void update_multipliers(const Vector &u);
+
+    /** Accelerations with which the first step begins (M a = f), as the
+     * boundaries allow; begin_step() comes before. Collective. */
+    void initial_acceleration(Vector &accelerations);
+
+    /** Residual relative to the forces, of the linearised problem after the
+     * last correction: all that a linear step leaves. */
+    double linear_residual(const Vector &delta) const;
+
+    const std::vector<Enforcement::HeldNode<dim>> &held_nodes() const
+    {
+      return held;
+    }
+
+    bool has_held_nodes() const; // on any rank
+
+    /** Force of its boundary on the held node: what the residual of the last
+     * evaluation leaves there. */
+    Tensor<1, dim> reaction(const Enforcement::HeldNode<dim> &node) const;
+
+    /** Displacements of active cell @p k's nodes. */
+    void gather(const unsigned int   k,
+                const Vector &       u,
+                std::vector<double> &cell_u) const;
+
+    std::string solver_description() const { return solver.description(); }
+
+    std::size_t n_starved_nodes() const { return n_starved; }
+
+  private:
+    enum class Part
+    {
+      all,
+      boundaries // and inertia: no stiffness of the material
+    };
+
+    void assemble(const Vector &u, const bool tangent_wanted, const Part part);
+    void assemble_material(const Vector &u, const bool tangent_wanted);
+    void assemble_boundaries(const Vector &u, const bool tangent_wanted);
+    void add_inertia(const Vector &u, const bool tangent_wanted);
+    void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
+    void scatter_residual(const unsigned int k);
+    void eliminate(BlockMatrix<dim> &matrix) const;
+    void hold_starved_nodes();
+    double force_scale() const;
+
+    const ActiveNodes<dim> &            active;
+    const MaterialPoints<dim> &         points;
+    Methods &                           methods;
+    const Enforcement::Conforming<dim> &conforming;
+    Counters &                          counters;
+    Seconds &                           seconds;
+    EmptyCells<dim>                     empty_cells;
+    std::vector<std::unique_ptr<Term<dim>>> terms;
+    std::vector<Enforcement::HeldNode<dim>> held;
+
+    LinearProblem<dim>  problem;
+    GatheredSolver<dim> solver;
+    bool                new_problem = true; // since the solver last heard
+    Vector              external, rest, full_rest;
+    const Inertia<dim> *inertia = nullptr;
+    double              scale   = 0; // forces that balance [N]
+    std::size_t         n_starved = 0;
+    std::vector<char>   starved; // per active node
+
+    // of the cell in work
+    std::vector<double> cell_u, cell_residual, cell_matrix;
+  };
+} // namespace Impoint
+
+#endif

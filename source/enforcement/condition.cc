@@ -1,0 +1,220 @@
+#include <impoint/base/parameter_file.h>
+#include <impoint/enforcement/condition.h>
+
+#include <deal.II/physics/transformations.h>
+
+namespace Impoint
+{
+  void ConditionParameters::declare(ParameterFile &    file,
+                                    const std::string &boundary_name)
+  {
+    name                  = boundary_name;
+    section               = "Boundaries/" + name;
+    auto &prm = file.handler();
+    prm.enter_subsection("Boundaries");
+    prm.enter_subsection(name);
+    prm.add_parameter("Constraint",
+                      constraint,
+                      "fixed: the whole displacement is prescribed; slip: its "
+                      "normal part; roller: the listed components (conforming "
+                      "only); traction: a load instead of a displacement.",
+                      Patterns::Selection("fixed|slip|roller|traction"));
+    prm.add_parameter("Components",
+                      components,
+                      "Components that a roller holds: x, y, z, separated by "
+                      "commas.",
+                      Patterns::List(Patterns::Selection("x|y|z"), 0, 3));
+    prm.add_parameter("Enforcement",
+                      enforcement,
+                      "Method of a nonconforming boundary. penalty: on each "
+                      "particle's gap (P Eqs. 42-43); projected penalty: on the "
+                      "mean gap of each cell, which does not lock.",
+                      Patterns::Selection("penalty|projected penalty"));
+    prm.add_parameter("Penalty factor",
+                      factor,
+                      "Penalty factor beta, in the unit below.",
+                      Patterns::Double(1e-300));
+    prm.add_parameter("Penalty unit",
+                      factor_unit,
+                      "E/h: beta is a multiple of Young's modulus over the cell "
+                      "size (largest of all bodies); Pa/m: beta is absolute.",
+                      Patterns::Selection("E/h|Pa/m"));
+    prm.add_parameter("Small-cut rule",
+                      small_cut_rule,
+                      "Raise small shape values to 0.01 in the penalty (P Eq. "
+                      "53). It breaks linear reproduction: only to reproduce the "
+                      "paper.",
+                      Patterns::Bool());
+    prm.add_parameter("Normals",
+                      normals,
+                      "Normals of a slip condition: each particle's own, or "
+                      "averaged at the nodes (P Eq. 54); automatic: nodal where "
+                      "the particles' normals differ, else particle.",
+                      Patterns::Selection("automatic|particle|nodal"));
+    prm.declare_entry("Value",
+                      "0",
+                      Patterns::Anything(),
+                      "Prescribed displacement [m] or velocity [m/s]: "
+                      "expressions of x, y, (z,) t separated by ';', of the "
+                      "place at the start of the run. 0: none.");
+    prm.add_parameter("Value is",
+                      value_kind,
+                      "What 'Value' means.",
+                      Patterns::Selection("displacement|velocity"));
+    prm.declare_entry("Rotation angle",
+                      "0",
+                      Patterns::Anything(),
+                      "Angle [rad] by which the boundary has turned at time t, "
+                      "an expression of t.");
+    prm.add_parameter("Rotation centre",
+                      rotation_centre,
+                      "A point of the axis of rotation [m].",
+                      Patterns::List(Patterns::Double(), 0, 3));
+    prm.add_parameter("Rotation axis",
+                      rotation_axis,
+                      "3D: direction of the axis of rotation.",
+                      Patterns::List(Patterns::Double(), 0, 3));
+    prm.add_parameter("Moves",
+                      motion,
+                      "How the particles move: with the value that they "
+                      "prescribe, with the material that they hold, or not.",
+                      Patterns::Selection(
+                        "with the value|with the material|not"));
+    prm.declare_entry("Traction",
+                      "0",
+                      Patterns::Anything(),
+                      "Load per area at the start [Pa] of a traction boundary: "
+                      "expressions of x, y, (z,) t separated by ';'.");
+    prm.add_parameter("Active from",
+                      from,
+                      "Time from which the boundary acts [s].",
+                      Patterns::Double());
+    prm.add_parameter("Active until",
+                      until,
+                      "Time until which the boundary acts [s].",
+                      Patterns::Double());
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+
+
+  void ConditionParameters::check(const ParameterFile &file,
+                                  const unsigned int   dim,
+                                  const bool           conforming) const
+  {
+    const auto clash = [&](const std::string &entry,
+                           const std::string &wrong,
+                           const std::string &advice) {
+      throw file.error(section + "/" + entry, wrong, advice);
+    };
+    if (constraint == "roller" && !conforming)
+      clash("Constraint",
+            "a nonconforming boundary cannot be a 'roller'",
+            "use 'slip', which holds the component along the normal");
+    if (constraint == "roller" && components.empty())
+      clash("Components",
+            "a roller holds no component",
+            "set Components = x (or y, z)");
+    if (constraint == "traction" && conforming)
+      clash("Constraint",
+            "a traction acts on nonconforming boundaries only",
+            "give the boundary a polyline or surface mesh along the grid's "
+            "boundary instead of a boundary id");
+    if (constraint != "roller" && !components.empty())
+      clash("Components",
+            "'Components' is set though the constraint is '" + constraint + "'",
+            "set Constraint = roller, or remove the entry");
+    if (constraint != "traction" && file.is_set(section + "/Traction"))
+      clash("Traction",
+            "'Traction' is set though the constraint is '" + constraint + "'",
+            "set Constraint = traction, or remove the entry");
+    if (constraint == "traction" && file.is_set(section + "/Value"))
+      clash("Value",
+            "'Value' is set though the constraint is 'traction'",
+            "a boundary prescribes either its displacement or its load: remove "
+            "one of the two");
+    if (conforming && file.is_set(section + "/Enforcement"))
+      clash("Enforcement",
+            "a conforming boundary has no enforcement method",
+            "remove the entry, or set Kind = nonconforming");
+    if (until <= from)
+      clash("Active until",
+            "the boundary ends before it begins",
+            "set 'Active until' later than 'Active from'");
+    if (!rotation_centre.empty() && rotation_centre.size() != dim)
+      clash("Rotation centre",
+            "the centre has " + std::to_string(rotation_centre.size()) +
+              " coordinates in " + std::to_string(dim) + "D",
+            "give " + std::to_string(dim) + " numbers");
+    if (dim == 3 && file.is_set(section + "/Rotation angle") &&
+        rotation_axis.size() != 3)
+      clash("Rotation axis",
+            "a rotation in 3D needs an axis",
+            "give its direction, e.g. Rotation axis = 0, 0, 1");
+    if (conforming && file.is_set(section + "/Rotation angle"))
+      clash("Rotation angle",
+            "a conforming boundary cannot rotate: the grid is fixed",
+            "use a nonconforming boundary");
+  }
+
+
+
+  template <int dim>
+  PrescribedMotion<dim>::PrescribedMotion(const ParameterFile &      file,
+                                          const ConditionParameters &parameters)
+    : value(file, parameters.section + "/Value", dim)
+    , angle(file, parameters.section + "/Rotation angle", 1)
+    , is_velocity(parameters.value_kind == "velocity")
+  {
+    for (unsigned int d = 0; d < parameters.rotation_centre.size(); ++d)
+      centre[d] = parameters.rotation_centre[d];
+    for (unsigned int d = 0; d < parameters.rotation_axis.size(); ++d)
+      axis[d] = parameters.rotation_axis[d];
+    if (axis.norm() > 0)
+      axis /= axis.norm();
+  }
+
+
+
+  template <int dim>
+  Tensor<2, dim> PrescribedMotion<dim>::rotation(const double start,
+                                                 const double end) const
+  {
+    const double turn =
+      angle.value(centre, end, 0) - angle.value(centre, start, 0);
+    if constexpr (dim == 2)
+      return Physics::Transformations::Rotations::rotation_matrix_2d(turn);
+    else
+      return Physics::Transformations::Rotations::rotation_matrix_3d(
+        Point<3>(axis), turn);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  PrescribedMotion<dim>::increment(const Point<dim> &x,
+                                   const Point<dim> &first,
+                                   const double      start,
+                                   const double      end) const
+  {
+    Tensor<1, dim> result;
+    if (is_velocity)
+      {
+        // Simpson's rule is exact for velocities cubic in time.
+        result = (end - start) / 6. *
+                 (value.vector(first, start) +
+                  4. * value.vector(first, 0.5 * (start + end)) +
+                  value.vector(first, end));
+      }
+    else if (!value.is_zero())
+      result = value.vector(first, end) - value.vector(first, start);
+    if (rotates())
+      result += rotation(start, end) * (x - centre) - (x - centre);
+    return result;
+  }
+
+  template class PrescribedMotion<2>;
+  template class PrescribedMotion<3>;
+} // namespace Impoint

@@ -1,0 +1,148 @@
+#include <impoint/base/parameter_file.h>
+#include <impoint/enforcement/enforcement.h>
+#include <impoint/enforcement/penalty.h>
+#include <impoint/enforcement/traction.h>
+
+namespace Impoint
+{
+  namespace Enforcement
+  {
+    template <int dim>
+    Method<dim>::Method(const ConditionParameters &             parameters,
+                        PrescribedMotion<dim>                   motion,
+                        std::unique_ptr<BoundaryParticles<dim>> particles)
+      : condition(parameters)
+      , motion(std::move(motion))
+      , boundary(std::move(particles))
+    {}
+
+
+
+    template <int dim>
+    void Method<dim>::begin_step(const Step<dim> &step)
+    {
+      current    = step;
+      active_now = condition.is_active(step.start, step.end);
+      if (motion.is_zero())
+        return;
+      const auto &slots = boundary->slots();
+      for (unsigned int b = 0; b < boundary->n(); ++b)
+        boundary->set_vector(
+          b,
+          slots.increment,
+          motion.increment(boundary->position(b),
+                           Point<dim>(boundary->vector(b, slots.start)),
+                           step.start,
+                           step.end));
+    }
+
+
+
+    template <int dim>
+    void Method<dim>::update_multipliers(const unsigned int, const double *)
+    {}
+
+
+
+    template <int dim>
+    Tensor<1, dim> Method<dim>::displacement(const unsigned int b,
+                                             const unsigned int n,
+                                             const double *     u) const
+    {
+      const double * N = boundary->support(b);
+      Tensor<1, dim> result;
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          result[d] += N[a] * u[a * dim + d];
+      return result;
+    }
+
+
+
+    template <int dim>
+    bool Method<dim>::moves() const
+    {
+      return condition.motion == "with the material" ||
+             (condition.motion == "with the value" && !motion.is_zero());
+    }
+
+
+
+    template <int dim>
+    void Method<dim>::new_places(const unsigned int       r,
+                                 const double *           u,
+                                 std::vector<Point<dim>> &places) const
+    {
+      const auto &       range = boundary->ranges()[r];
+      const unsigned int n =
+        current.active->basis().n_nodes_of(range.cell);
+      for (unsigned int b = range.begin; b < range.end; ++b)
+        {
+          places[b] = boundary->position(b);
+          if (condition.motion == "with the value")
+            places[b] += boundary->vector(b, boundary->slots().increment);
+          else if (condition.motion == "with the material" && u != nullptr)
+            places[b] += displacement(b, n, u);
+        }
+    }
+
+
+
+    template <int dim>
+    void Method<dim>::finish_step(const std::vector<Point<dim>> &places)
+    {
+      const auto &   slots = boundary->slots();
+      Tensor<2, dim> rotation;
+      if (motion.rotates())
+        rotation = motion.rotation(current.start, current.end);
+      for (unsigned int b = 0; b < boundary->n(); ++b)
+        {
+          boundary->set_vector(b, slots.x, places[b]);
+          if (motion.rotates() && condition.motion == "with the value")
+            boundary->set_vector(b,
+                                 slots.normal,
+                                 rotation * boundary->vector(b, slots.normal));
+        }
+      boundary->move();
+    }
+
+
+
+    template <int dim>
+    std::unique_ptr<Method<dim>>
+    create(const ParameterFile &                   file,
+           const ConditionParameters &             parameters,
+           std::unique_ptr<BoundaryParticles<dim>> particles)
+    {
+      PrescribedMotion<dim> motion(file, parameters);
+      if (parameters.constraint == "traction")
+        return std::make_unique<Traction<dim>>(
+          parameters,
+          std::move(motion),
+          std::move(particles),
+          Expression<dim>(file, parameters.section + "/Traction", dim));
+      for (const bool projected : {false, true})
+        if (parameters.enforcement ==
+            (projected ? "projected penalty" : "penalty"))
+          return std::make_unique<Penalty<dim>>(parameters,
+                                                std::move(motion),
+                                                std::move(particles),
+                                                projected);
+      throw file.error(parameters.section + "/Enforcement",
+                       "no enforcement is called '" + parameters.enforcement +
+                         "'",
+                       "see --print-parameters for the methods");
+    }
+
+    template class Method<2>;
+    template class Method<3>;
+    template std::unique_ptr<Method<2>>
+    create(const ParameterFile &,
+           const ConditionParameters &,
+           std::unique_ptr<BoundaryParticles<2>>);
+    template std::unique_ptr<Method<3>>
+    create(const ParameterFile &,
+           const ConditionParameters &,
+           std::unique_ptr<BoundaryParticles<3>>);
+  } // namespace Enforcement
+} // namespace Impoint

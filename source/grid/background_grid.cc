@@ -1,0 +1,490 @@
+#include <impoint/base/expression.h>
+#include <impoint/base/parameter_file.h>
+#include <impoint/grid/background_grid.h>
+
+#include <deal.II/boost_adaptors/bounding_box.h>
+
+#include <deal.II/distributed/shared_tria.h>
+#include <deal.II/distributed/tria.h>
+
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/mapping_fe.h>
+#include <deal.II/fe/mapping_q1.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+
+namespace Impoint
+{
+  template <int dim>
+  struct BackgroundGrid<dim>::Tree
+  {
+    using Leaf = std::pair<BoundingBox<dim>, unsigned int>;
+    RTree<Leaf> boxes;
+  };
+
+
+
+  template <int dim>
+  BackgroundGrid<dim>::BackgroundGrid(const ParameterFile & file,
+                                      const GridParameters &parameters,
+                                      const MPI_Comm        communicator)
+    : comm(communicator)
+  {
+    make_triangulation(file, parameters);
+    build_cells();
+    build_neighbors();
+    detect_lattice();
+  }
+
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::make_triangulation(const ParameterFile & file,
+                                               const GridParameters &parameters)
+  {
+    Triangulation<dim> coarse;
+    make_coarse_mesh(file, parameters, coarse);
+    is_simplicial = coarse.all_reference_cells_are_simplex();
+    if (!is_simplicial && !coarse.all_reference_cells_are_hyper_cube())
+      throw file.error(parameters.section + "/File",
+                       "the background grid mixes kinds of cells",
+                       "use a mesh of quadrilaterals (hexahedra) only or of "
+                       "triangles (tetrahedra) only");
+    if (is_simplicial)
+      {
+        mesh = std::make_unique<parallel::shared::Triangulation<dim>>(comm);
+        map  = std::make_unique<MappingFE<dim>>(FE_SimplexP<dim>(1));
+      }
+    else
+      {
+        mesh = std::make_unique<parallel::distributed::Triangulation<dim>>(comm);
+        map  = std::make_unique<MappingQ1<dim>>();
+      }
+    mesh->copy_triangulation(coarse);
+    refine_mesh(parameters, *mesh);
+    refine(file, parameters);
+  }
+
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::refine(const ParameterFile & file,
+                                   const GridParameters &parameters)
+  {
+    if (parameters.refine_where.empty())
+      return;
+    if (is_simplicial)
+      throw file.error(parameters.section + "/Refine where",
+                       "triangles and tetrahedra cannot be refined locally",
+                       "use quadrilaterals (hexahedra), or a mesh file that is "
+                       "finer where needed");
+    const Expression<dim> where(file, parameters.section + "/Refine where", 1);
+    for (unsigned int i = 0; i < parameters.refine_times; ++i)
+      {
+        for (const auto &cell : mesh->active_cell_iterators())
+          if (cell->is_locally_owned() && where.value(cell->center(), 0, 0) > 0)
+            cell->set_refine_flag();
+        mesh->execute_coarsening_and_refinement();
+      }
+  }
+
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::build_cells()
+  {
+    const unsigned int n = mesh->n_active_cells();
+    iterators.resize(n);
+    kind.assign(n, artificial);
+    affine.assign(n, false);
+    corner.resize(n);
+    inverse_jacobian.resize(n);
+
+    std::vector<typename Tree::Leaf> leaves;
+    Point<dim>                       lower, upper;
+    h_min = std::numeric_limits<double>::max();
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::numeric_limits<double>::max();
+        upper[d] = std::numeric_limits<double>::lowest();
+      }
+    for (const auto &cell : mesh->active_cell_iterators())
+      {
+        const unsigned int c = cell->active_cell_index();
+        iterators[c]         = cell;
+        if (cell->is_artificial())
+          continue;
+        kind[c] = cell->is_locally_owned() ? own : ghost;
+        set_affine_map(c);
+        const BoundingBox<dim> box = cell->bounding_box();
+        leaves.emplace_back(box, c);
+        h_min = std::min(h_min, size(c));
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = std::min(lower[d], box.lower_bound(d));
+            upper[d] = std::max(upper[d], box.upper_bound(d));
+          }
+      }
+    h_min = Utilities::MPI::min(h_min, comm);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = Utilities::MPI::min(lower[d], comm);
+        upper[d] = Utilities::MPI::max(upper[d], comm);
+      }
+    bounding_box = BoundingBox<dim>({lower, upper});
+    tree         = std::make_shared<Tree>();
+    tree->boxes  = pack_rtree(leaves);
+  }
+
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::set_affine_map(const unsigned int c)
+  {
+    const auto &   cell = iterators[c];
+    Tensor<2, dim> jacobian; // columns: edges at vertex 0
+    for (unsigned int k = 0; k < dim; ++k)
+      {
+        const Tensor<1, dim> edge =
+          cell->vertex(is_simplicial ? k + 1 : (1 << k)) - cell->vertex(0);
+        for (unsigned int d = 0; d < dim; ++d)
+          jacobian[d][k] = edge[d];
+      }
+    corner[c]           = cell->vertex(0);
+    inverse_jacobian[c] = invert(jacobian);
+    affine[c]           = true;
+    if (!is_simplicial)
+      for (const unsigned int v : cell->vertex_indices())
+        {
+          Tensor<1, dim> reference;
+          for (unsigned int d = 0; d < dim; ++d)
+            reference[d] = (v >> d) & 1;
+          const Point<dim> mapped = corner[c] + jacobian * reference;
+          if (mapped.distance(cell->vertex(v)) > 1e-10 * cell->diameter())
+            affine[c] = false;
+        }
+  }
+
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::build_neighbors()
+  {
+    n_faces = is_simplicial ? dim + 1 : 2 * dim;
+    neighbors.assign(std::size_t(n_cells()) * n_faces, nowhere);
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      if (is_known(c))
+        for (unsigned int f = 0; f < n_faces; ++f)
+          if (!iterators[c]->at_boundary(f))
+            {
+              const auto neighbor = iterators[c]->neighbor(f);
+              if (!neighbor->is_active())
+                neighbors[c * n_faces + f] = refined;
+              else if (!neighbor->is_artificial())
+                neighbors[c * n_faces + f] = neighbor->active_cell_index();
+            }
+
+    if (is_simplicial)
+      {
+        const auto reference = ReferenceCells::get_simplex<dim>();
+        opposite_face.resize(dim + 1);
+        for (unsigned int v = 0; v < dim + 1; ++v)
+          for (unsigned int f = 0; f < n_faces; ++f)
+            {
+              const unsigned char standard_orientation = 1;
+              bool                holds                = false;
+              for (unsigned int i = 0; i < dim; ++i)
+                holds |= reference.face_to_cell_vertices(
+                           f, i, standard_orientation) == v;
+              if (!holds)
+                opposite_face[v] = f;
+            }
+      }
+  }
+
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::detect_lattice()
+  {
+    // Every rank looks at its own cells against the frame of its first one;
+    // all generated Cartesian meshes give all ranks the same frame.
+    bool         good  = !is_simplicial;
+    unsigned int first = 0;
+    while (first < n_cells() && !is_known(first))
+      ++first;
+    good = good && first < n_cells() && affine[first];
+    if (good)
+      {
+        const Tensor<2, dim> jacobian = invert(inverse_jacobian[first]);
+        for (unsigned int k = 0; k < dim; ++k)
+          {
+            Tensor<1, dim> edge;
+            for (unsigned int d = 0; d < dim; ++d)
+              edge[d] = jacobian[d][k];
+            frame.spacing[k] = edge.norm();
+            for (unsigned int d = 0; d < dim; ++d)
+              frame.axes[d][k] = edge[d] / frame.spacing[k];
+          }
+        const Tensor<2, dim> gram = transpose(frame.axes) * frame.axes;
+        good = (gram - unit_symmetric_tensor<dim>()).norm() < 1e-9;
+      }
+    Tensor<1, dim> lowest;
+    for (unsigned int d = 0; d < dim; ++d)
+      lowest[d] = std::numeric_limits<double>::max();
+    for (unsigned int c = 0; good && c < n_cells(); ++c)
+      if (is_known(c))
+        {
+          good = affine[c] &&
+                 (inverse_jacobian[c] - inverse_jacobian[first]).norm() <
+                   1e-8 * inverse_jacobian[first].norm();
+          const Tensor<1, dim> place = transpose(frame.axes) * corner[c];
+          for (unsigned int d = 0; d < dim; ++d)
+            lowest[d] = std::min(lowest[d], place[d]);
+        }
+    frame.exists = Utilities::MPI::min(int(good), comm);
+    if (frame.exists)
+      for (unsigned int d = 0; d < dim; ++d)
+        lowest[d] = Utilities::MPI::min(lowest[d], comm);
+    frame.origin = Point<dim>(frame.axes * lowest);
+  }
+
+
+
+  template <int dim>
+  double BackgroundGrid<dim>::volume(const unsigned int c) const
+  {
+    if (!affine[c])
+      return iterators[c]->measure();
+    const double box = 1. / std::abs(determinant(inverse_jacobian[c]));
+    return is_simplicial ? box / (dim == 2 ? 2. : 6.) : box;
+  }
+
+
+
+  template <int dim>
+  double BackgroundGrid<dim>::size(const unsigned int c) const
+  {
+    const double box = is_simplicial ? volume(c) * (dim == 2 ? 2. : 6.) : volume(c);
+    return dim == 2 ? std::sqrt(box) : std::cbrt(box);
+  }
+
+
+
+  template <int dim>
+  std::vector<Point<dim>>
+  BackgroundGrid<dim>::vertices(const unsigned int c) const
+  {
+    std::vector<Point<dim>> points;
+    for (const unsigned int v : iterators[c]->vertex_indices())
+      points.push_back(iterators[c]->vertex(v));
+    return points;
+  }
+
+
+
+  template <int dim>
+  std::vector<HalfSpace<dim>>
+  BackgroundGrid<dim>::faces(const unsigned int c) const
+  {
+    const auto &                cell   = iterators[c];
+    const Point<dim>            center = cell->center();
+    std::vector<HalfSpace<dim>> half_spaces;
+    for (const unsigned int f : cell->face_indices())
+      {
+        const auto     face = cell->face(f);
+        Tensor<1, dim> normal;
+        if constexpr (dim == 2)
+          normal = cross_product_2d(face->vertex(1) - face->vertex(0));
+        else
+          normal = cross_product_3d(face->vertex(1) - face->vertex(0),
+                                    face->vertex(2) - face->vertex(0));
+        normal /= normal.norm();
+        if ((face->vertex(0) - center) * normal < 0)
+          normal *= -1;
+        half_spaces.push_back({face->vertex(0), normal});
+      }
+    return half_spaces;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  BackgroundGrid<dim>::cells_near(const Point<dim> &lower,
+                                  const Point<dim> &upper) const
+  {
+    namespace bgi = boost::geometry::index;
+    std::vector<unsigned int> found;
+    const BoundingBox<dim>    query({lower, upper});
+    for (auto leaf = tree->boxes.qbegin(bgi::intersects(query));
+         leaf != tree->boxes.qend();
+         ++leaf)
+      found.push_back(leaf->second);
+    std::sort(found.begin(), found.end());
+    return found;
+  }
+
+
+
+  template <int dim>
+  Point<dim> BackgroundGrid<dim>::to_reference(const unsigned int c,
+                                               const Point<dim> & x) const
+  {
+    const Point<dim> linear(inverse_jacobian[c] * (x - corner[c]));
+    if (affine[c])
+      return linear;
+    try
+      {
+        return map->transform_real_to_unit_cell(iterators[c], x);
+      }
+    catch (const typename Mapping<dim>::ExcTransformationFailed &)
+      {
+        // Far from the cell the bilinear map has no inverse; the map of its
+        // first corner still tells which face to leave through.
+        return linear;
+      }
+  }
+
+
+
+  template <int dim>
+  double BackgroundGrid<dim>::outside_by(const Point<dim> &xi) const
+  {
+    double worst = std::numeric_limits<double>::lowest();
+    double sum   = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        worst = std::max(worst, -xi[d]);
+        if (!is_simplicial)
+          worst = std::max(worst, xi[d] - 1);
+        sum += xi[d];
+      }
+    return is_simplicial ? std::max(worst, sum - 1) : worst;
+  }
+
+
+
+  template <int dim>
+  void BackgroundGrid<dim>::order_faces(const Point<dim> &           xi,
+                                        std::array<unsigned int, 6> &faces,
+                                        unsigned int &n_violated) const
+  {
+    // Insertion keeps the worst violation first.
+    std::array<double, 6> violations;
+    n_violated     = 0;
+    const auto add = [&](const double violation, const unsigned int face) {
+      if (violation <= 0)
+        return;
+      unsigned int place = n_violated++;
+      for (; place > 0 && violations[place - 1] < violation; --place)
+        {
+          violations[place] = violations[place - 1];
+          faces[place]      = faces[place - 1];
+        }
+      violations[place] = violation;
+      faces[place]      = face;
+    };
+    double sum = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        add(-xi[d], is_simplicial ? opposite_face[d + 1] : 2 * d);
+        if (!is_simplicial)
+          add(xi[d] - 1, 2 * d + 1);
+        sum += xi[d];
+      }
+    if (is_simplicial)
+      add(sum - 1, opposite_face[0]);
+  }
+
+
+
+  template <int dim>
+  unsigned int BackgroundGrid<dim>::next_cell(const unsigned int c,
+                                              const unsigned int face,
+                                              const Point<dim> & x) const
+  {
+    const unsigned int neighbor = neighbors[c * n_faces + face];
+    if (neighbor != refined)
+      return neighbor;
+    unsigned int best     = nowhere;
+    double       smallest = std::numeric_limits<double>::max();
+    const auto & cell     = iterators[c];
+    for (unsigned int s = 0; s < cell->face(face)->n_children(); ++s)
+      {
+        const auto child = cell->neighbor_child_on_subface(face, s);
+        if (!child->is_active() || child->is_artificial())
+          continue;
+        const unsigned int candidate = child->active_cell_index();
+        const double       distance  = outside_by(to_reference(candidate, x));
+        if (distance < smallest)
+          {
+            smallest = distance;
+            best     = candidate;
+          }
+      }
+    return best;
+  }
+
+
+
+  template <int dim>
+  unsigned int BackgroundGrid<dim>::walk(const Point<dim> & x,
+                                         const unsigned int start,
+                                         Point<dim> &       xi) const
+  {
+    unsigned int                c = start, previous = nowhere;
+    std::array<unsigned int, 6> faces;
+    for (unsigned int step = 0; step < 1000; ++step)
+      {
+        xi = to_reference(c, x);
+        if (is_inside(xi))
+          return c;
+        unsigned int n_violated = 0, next = nowhere;
+        order_faces(xi, faces, n_violated);
+        for (unsigned int i = 0; i < n_violated && next == nowhere; ++i)
+          {
+            next = next_cell(c, faces[i], x);
+            if (next == previous) // a point within round-off of a face
+              next = nowhere;
+          }
+        if (next == nowhere)
+          break;
+        previous = c;
+        c        = next;
+      }
+    return find(x, xi);
+  }
+
+
+
+  template <int dim>
+  unsigned int BackgroundGrid<dim>::find(const Point<dim> &x,
+                                         Point<dim> &      xi) const
+  {
+    // On a face several cells hold x. A nudge in a direction that is parallel
+    // to no face chooses the same one of them on every rank.
+    Tensor<1, dim> nudge;
+    const double   direction[3] = {0.7315, 0.5231, 0.4379};
+    for (unsigned int d = 0; d < dim; ++d)
+      nudge[d] = 1e-9 * h_min * direction[d];
+
+    const auto candidates = cells_near(x - 2. * nudge, x + 2. * nudge);
+    for (const double sign : {1., -1., 0.})
+      for (const unsigned int c : candidates)
+        if (is_inside(to_reference(c, x + sign * nudge),
+                      sign == 0. ? 1e-9 : 1e-14))
+          {
+            xi = to_reference(c, x);
+            return c;
+          }
+    return nowhere;
+  }
+
+  template class BackgroundGrid<2>;
+  template class BackgroundGrid<3>;
+} // namespace Impoint

@@ -1,0 +1,208 @@
+#include <impoint/base/parameter_file.h>
+#include <impoint/base/words.h>
+#include <impoint/grid/mesh.h>
+#include <impoint/grid/mesh_source.h>
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_in.h>
+
+#include <array>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace Impoint
+{
+  namespace
+  {
+    /** The generators and what their arguments mean, for messages. */
+    const std::map<std::string, std::string> &generator_arguments()
+    {
+      static const std::map<std::string, std::string> arguments = {
+        {"channel_with_cylinder",
+         "width of the shells : number of shells : skewness : colorize"},
+        {"cheese", "holes in x, y, ..."},
+        {"concentric_hyper_shells",
+         "centre : inner radius : outer radius : shells : skewness : cells a "
+         "shell : colorize"},
+        {"cylinder", "radius : half length"},
+        {"cylinder_shell",
+         "length : inner radius : outer radius : radial cells : axial cells"},
+        {"eccentric_hyper_shell",
+         "inner centre : outer centre : inner radius : outer radius : cells"},
+        {"enclosed_hyper_cube", "left : right : thickness : colorize"},
+        {"general_cell", "vertices separated by ';' : colorize"},
+        {"half_hyper_ball", "centre : radius"},
+        {"half_hyper_shell",
+         "centre : inner radius : outer radius : cells : colorize"},
+        {"hyper_L", "left : right : colorize"},
+        {"hyper_ball", "centre : radius : spherical inside"},
+        {"hyper_ball_balanced", "centre : radius"},
+        {"hyper_cross", "sizes of the arms : colorize"},
+        {"hyper_cube", "left : right : colorize"},
+        {"hyper_cube_slit", "left : right : colorize"},
+        {"hyper_cube_with_cylindrical_hole",
+         "inner radius : outer radius : length : repetitions : colorize"},
+        {"hyper_rectangle", "corner : opposite corner : colorize"},
+        {"hyper_shell",
+         "centre : inner radius : outer radius : cells : colorize"},
+        {"hyper_sphere", "centre : radius (a surface)"},
+        {"moebius", "cells : quarter turns : radius of the ring : of the band"},
+        {"pipe_junction", "openings : bifurcation : aspect ratio"},
+        {"plate_with_a_hole",
+         "inner radius : outer radius : pad below : above : left : right : "
+         "centre : manifold id : inner manifold id : length : slices : "
+         "colorize"},
+        {"quarter_hyper_ball", "centre : radius"},
+        {"quarter_hyper_shell",
+         "centre : inner radius : outer radius : cells : colorize"},
+        {"simplex", "vertices separated by ';'"},
+        {"subdivided_cylinder", "cells along x : radius : half length"},
+        {"subdivided_hyper_cube",
+         "cells a direction : left : right : colorize"},
+        {"subdivided_hyper_rectangle",
+         "cells in x, y, ... : corner : opposite corner : colorize"},
+        {"torus",
+         "radius of the ring : of the tube : cells around : angle in rad"},
+        {"truncated_cone", "radius at the left : at the right : half length"}};
+      return arguments;
+    }
+
+
+
+    std::string text_of(const std::exception &error)
+    {
+      if (const auto *ours = dynamic_cast<const ExceptionBase *>(&error))
+        {
+          std::ostringstream text;
+          ours->print_info(text);
+          return Words::trim(text.str());
+        }
+      return error.what();
+    }
+
+
+
+    template <int dim, int spacedim>
+    void call_generator(const ParameterFile          &file,
+                  const MeshParameters         &parameters,
+                  Triangulation<dim, spacedim> &mesh)
+    {
+      // Most generators end with a flag to number the sides of the boundary,
+      // which everybody wants and nobody should have to write.
+      std::string reason;
+      for (const std::string flag : {"", " : true"})
+        try
+          {
+            GridGenerator::generate_from_name_and_arguments(
+              mesh, parameters.generator, parameters.arguments + flag);
+            return;
+          }
+        catch (const std::exception &error)
+          {
+            reason = reason.empty() ? text_of(error) : reason;
+            mesh.clear();
+          }
+
+      const std::string where = dim < spacedim ? "surfaces in " : "";
+      const std::string space = where + std::to_string(spacedim) + "D";
+      if (reason.find("not implemented") != std::string::npos)
+        throw file.error(parameters.section + "/Generator",
+                         "'" + parameters.generator + "' makes no meshes of " +
+                           (where.empty() ? "cells in " : "") + space,
+                         "Choose another generator, or give a mesh file.");
+      const auto meaning = generator_arguments().find(parameters.generator);
+      throw file.error(
+        parameters.section + "/Arguments",
+        "'" + parameters.arguments + "' does not suit the generator '" +
+          parameters.generator + "' in " + space,
+        "It takes " +
+          (meaning == generator_arguments().end() ? reason : meaning->second) +
+          ", coordinates of a point separated by ','.");
+    }
+
+
+
+    template <int dim, int spacedim>
+    void read_mesh_file(const ParameterFile          &file,
+              const MeshParameters         &parameters,
+              Triangulation<dim, spacedim> &mesh)
+    {
+      const std::string entry = parameters.section + "/File";
+      const std::string name  = file.absolute(entry);
+      std::ifstream     stream(name);
+      const std::string ending =
+        name.substr(std::min(name.rfind('.'), name.size()));
+      try
+        {
+          GridIn<dim, spacedim> reader;
+          reader.attach_triangulation(mesh);
+          if (ending == ".msh")
+            reader.read_msh(stream);
+          else if (ending == ".vtk")
+            reader.read_vtk(stream);
+          else
+            reader.read_ucd(stream);
+        }
+      catch (const std::exception &error)
+        {
+          throw file.error(entry,
+                           "the mesh file '" + name +
+                             "' cannot be used: " + text_of(error),
+                           "Give a mesh of " + std::to_string(dim) +
+                             "D cells in one of the formats .msh (Gmsh, "
+                             "version 2 or 4), .vtk or .inp (UCD).");
+        }
+    }
+  } // namespace
+
+
+
+  std::vector<std::string> generator_names()
+  {
+    std::vector<std::string> names;
+    for (const auto &generator : generator_arguments())
+      names.push_back(generator.first);
+    return names;
+  }
+
+
+
+  std::vector<std::string> mesh_file_endings()
+  {
+    return {".msh", ".vtk", ".inp", ".ucd"};
+  }
+
+
+
+  template <int dim, int spacedim>
+  void generate_or_read(const ParameterFile          &file,
+                        const MeshParameters         &parameters,
+                        Triangulation<dim, spacedim> &mesh)
+  {
+    if (parameters.file.empty())
+      call_generator(file, parameters, mesh);
+    else
+      read_mesh_file(file, parameters, mesh);
+
+    if constexpr (dim == spacedim)
+      for (const auto &cell : mesh.active_cell_iterators())
+        if (!(cell->measure() > 0))
+          throw file.error(parameters.section +
+                             (parameters.file.empty() ? "/Arguments" : "/File"),
+                           "the mesh has a cell of size " +
+                             Words::exact(cell->measure()),
+                           "Give lengths above 0 and corners in order.");
+  }
+
+#define IMPOINT_INSTANTIATE(dim, spacedim)               \
+  template void generate_or_read(const ParameterFile &,  \
+                                 const MeshParameters &, \
+                                 Triangulation<dim, spacedim> &);
+
+  IMPOINT_INSTANTIATE(2, 2)
+  IMPOINT_INSTANTIATE(3, 3)
+  IMPOINT_INSTANTIATE(1, 2)
+  IMPOINT_INSTANTIATE(2, 3)
+#undef IMPOINT_INSTANTIATE
+} // namespace Impoint

@@ -1,0 +1,103 @@
+#include <impoint/measurements/named_values.h>
+#include <impoint/measurements/totals.h>
+
+namespace Impoint
+{
+  namespace Measurements
+  {
+    namespace
+    {
+      /** Strain energy of point @p p as it stands. */
+      template <int dim>
+      double strain_energy_of(const MaterialPoints<dim> &points,
+                              const unsigned int         p)
+      {
+        const double *state = points.data(p);
+        const auto   &slots = points.slots();
+
+        Materials::Deformation<dim> deformation;
+        Materials::Response<dim>    response;
+        deformation.F = points.deformation_gradient(p);
+        for (int k = 0; k < Voigt<dim>::n; ++k)
+          response.stress[k] = state[slots.stress + k];
+        if constexpr (dim == 2)
+          response.stress_zz = state[slots.stress + Voigt<dim>::n];
+        return state[slots.volume] *
+               points.material(p).energy(deformation, response);
+      }
+
+
+
+      /** Adds what the other ranks have. */
+      template <int dim>
+      void add_ranks(Totals<dim> &totals, const MPI_Comm communicator)
+      {
+        std::vector<double *> numbers = {&totals.mass,
+                                         &totals.kinetic_energy,
+                                         &totals.strain_energy};
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            numbers.push_back(&totals.centre[d]);
+            numbers.push_back(&totals.momentum[d]);
+          }
+        for (unsigned int d = 0; d < 3; ++d)
+          numbers.push_back(&totals.spin[d]);
+
+        std::vector<double> sums;
+        for (const double *number : numbers)
+          sums.push_back(*number);
+        sum_over_ranks(sums, communicator);
+        for (unsigned int i = 0; i < sums.size(); ++i)
+          *numbers[i] = sums[i];
+      }
+    } // namespace
+
+
+
+    template <int dim>
+    Tensor<1, 3> moment(const Tensor<1, dim> &arm, const Tensor<1, dim> &force)
+    {
+      Tensor<1, 3> product;
+      for (unsigned int i = dim == 2 ? 2 : 0; i < 3; ++i)
+        {
+          const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
+          product[i] = arm[j] * force[k] - arm[k] * force[j];
+        }
+      return product;
+    }
+
+
+
+    template <int dim>
+    Totals<dim> totals(const MaterialPoints<dim> &points,
+                       const MPI_Comm             communicator)
+    {
+      const auto &slots = points.slots();
+      Totals<dim> sums;
+      for (unsigned int p = 0; p < points.n(); ++p)
+        {
+          const double         mass = points.data(p)[slots.mass];
+          const Tensor<1, dim> place(points.position(p));
+          sums.mass += mass;
+          sums.centre += mass * place;
+          sums.strain_energy += strain_energy_of(points, p);
+          if (!points.carried().dynamic)
+            continue;
+          const Tensor<1, dim> velocity = points.vector(p, slots.v);
+          sums.momentum += mass * velocity;
+          sums.spin += mass * moment(place, velocity);
+          sums.kinetic_energy += 0.5 * mass * velocity.norm_square();
+        }
+      add_ranks(sums, communicator);
+      sums.centre /= sums.mass;
+      return sums;
+    }
+
+
+
+    template Tensor<1, 3> moment(const Tensor<1, 2> &, const Tensor<1, 2> &);
+    template Tensor<1, 3> moment(const Tensor<1, 3> &, const Tensor<1, 3> &);
+    template Totals<2>    totals(const MaterialPoints<2> &, const MPI_Comm);
+    template Totals<3>    totals(const MaterialPoints<3> &, const MPI_Comm);
+  } // namespace Measurements
+} // namespace Impoint

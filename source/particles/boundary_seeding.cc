@@ -1,0 +1,366 @@
+#include <impoint/base/parameter_file.h>
+#include <impoint/particles/facets.h>
+#include <impoint/particles/numbering.h>
+#include <impoint/particles/seeding.h>
+#include <impoint/particles/simplex_rules.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Impoint
+{
+  namespace
+  {
+    // Facets and particles that are closer to a face of the grid, relative to
+    // the cells' size, lie on it. Not a round number, lest a scene that moves a
+    // boundary towards a face in decades stops just there.
+    const double on_face = 0.7e-10;
+    const double particle_on_face =
+      4e-9; // above that of BackgroundGrid::find()
+
+
+
+    /** Rules to put particles on a segment (2D) or polygon (3D). */
+    template <int dim>
+    class FacetRule
+    {
+    public:
+      using Particles = std::vector<SeededBoundaryParticle<dim>>;
+
+      /** @p name as in BoundaryParameters. */
+      FacetRule(const std::string &name, const unsigned int n)
+        : n(n)
+        , cut(name == "cut")
+        , line(name != "equal" ? Quadrature<1>(QGauss<1>(n)) :
+                                 Quadrature<1>(QIterated<1>(QMidpoint<1>(), n)))
+      {
+        const bool gauss = name != "equal";
+        if (dim == 3 && gauss)
+          triangle = simplex_rule_of_order<2>(n);
+        else if (dim == 3)
+          triangle = equal_triangles();
+      }
+
+      Particles particles(const Corners<dim> &corners) const
+      {
+        Particles list;
+        if constexpr (dim == 2)
+          {
+            const Tensor<1, 2> side = corners[1] - corners[0];
+            for (unsigned int q = 0; q < line.size(); ++q)
+              add(list,
+                  corners[0] + line.point(q)[0] * side,
+                  line.weight(q) * cross_product_2d(side));
+          }
+        else if (corners.size() == 4 && (!cut || is_parallelogram(corners)))
+          add_quadrilateral(corners, list);
+        else
+          add_fan(corners, list);
+        return list;
+      }
+
+    private:
+      static void add(Particles            &list,
+                      const Point<dim>     &x,
+                      const Tensor<1, dim> &area_vector)
+      {
+        const double area = area_vector.norm();
+        if (!(area > 0))
+          return;
+        list.emplace_back();
+        list.back().x      = x;
+        list.back().area   = area;
+        list.back().normal = area_vector / area;
+      }
+
+      /** Centroids of the n^2 equal triangles that make up a triangle. */
+      Quadrature<2> equal_triangles() const
+      {
+        std::vector<Point<2>> points;
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int k = 0; i + k < n; ++k)
+            {
+              points.emplace_back((i + 1. / 3) / n, (k + 1. / 3) / n);
+              if (i + k + 1 < n)
+                points.emplace_back((i + 2. / 3) / n, (k + 2. / 3) / n);
+            }
+        return Quadrature<2>(points,
+                             std::vector<double>(points.size(),
+                                                 0.5 / points.size()));
+      }
+
+      /** Bilinear, corners in order: the normal changes over a warped one. */
+      void add_quadrilateral(const Corners<3> &corners, Particles &list) const
+      {
+        const Tensor<1, 3> right = corners[1] - corners[0];
+        const Tensor<1, 3> up    = corners[3] - corners[0];
+        const Tensor<1, 3> warp  = corners[2] - corners[1] - up;
+        for (unsigned int k = 0; k < line.size(); ++k)
+          for (unsigned int i = 0; i < line.size(); ++i)
+            {
+              const double s = line.point(i)[0], t = line.point(k)[0];
+              add(list,
+                  corners[0] + s * right + t * up + s * t * warp,
+                  line.weight(i) * line.weight(k) *
+                    cross_product_3d(right + t * warp, up + s * warp));
+            }
+      }
+
+      void add_fan(const Corners<3> &corners, Particles &list) const
+      {
+        const double smallest = 1e-14 * area_vector(corners).norm();
+        for (unsigned int i = 1; i + 1 < corners.size(); ++i)
+          {
+            const Tensor<1, 3> first  = corners[i] - corners[0];
+            const Tensor<1, 3> second = corners[i + 1] - corners[0];
+            const Tensor<1, 3> normal = cross_product_3d(first, second);
+            if (0.5 * normal.norm() > smallest)
+              for (unsigned int q = 0; q < triangle.size(); ++q)
+                add(list,
+                    corners[0] + triangle.point(q)[0] * first +
+                      triangle.point(q)[1] * second,
+                    triangle.weight(q) * normal);
+          }
+      }
+
+      /** Whether a rule for squares is as exact on it as one for triangles. */
+      static bool is_parallelogram(const Corners<3> &corners)
+      {
+        const Tensor<1, 3> warp =
+          corners[2] - corners[1] - (corners[3] - corners[0]);
+        return warp.norm() < 1e-12 * corners[2].distance(corners[0]);
+      }
+
+      const unsigned int n;
+      const bool         cut;
+      Quadrature<1>      line;
+      Quadrature<2>      triangle;
+    };
+
+
+
+    template <int dim>
+    Tensor<1, dim> area_vector_of(const Corners<dim> &corners)
+    {
+      if constexpr (dim == 2)
+        return cross_product_2d(corners[1] - corners[0]);
+      else
+        return area_vector(corners);
+    }
+
+
+
+    /** Facets that half spaces can cut: warped quadrilaterals become triangles,
+     * whose rules are exact, too. */
+    template <int dim>
+    std::vector<Corners<dim>> flat_facets(std::vector<Corners<dim>> facets)
+    {
+      std::vector<Corners<dim>> flat;
+      for (const auto &facet : facets)
+        if constexpr (dim == 3)
+          {
+            const Tensor<1, 3> normal = area_vector(facet);
+            const double       height =
+              facet.size() < 4 ?
+                      0. :
+                      std::abs(
+                  (facet[3] - facet[0]) *
+                  cross_product_3d(facet[1] - facet[0], facet[2] - facet[0]));
+            if (height > 1e-12 * std::pow(normal.norm(), 1.5))
+              {
+                flat.push_back({facet[0], facet[1], facet[2]});
+                flat.push_back({facet[0], facet[2], facet[3]});
+              }
+            else
+              flat.push_back(facet);
+          }
+        else
+          flat.push_back(facet);
+      return flat;
+    }
+
+
+
+    /** Cuts facets at the faces of the grid's cells. */
+    template <int dim>
+    class FacetCutter
+    {
+    public:
+      explicit FacetCutter(const BackgroundGrid<dim> &grid)
+        : grid(grid)
+        , tolerance(on_face * grid.smallest_size())
+      {}
+
+      /** The part of @p facet that belongs to the own cell @p c; may be empty.
+       */
+      Corners<dim> part_in(const unsigned int  c,
+                           const Corners<dim> &facet) const
+      {
+        const Tensor<1, dim> normal = area_vector_of(facet);
+        const auto           faces  = grid.faces(c);
+        Corners<dim>         part   = facet;
+        for (unsigned int f = 0; f < faces.size() && !part.empty(); ++f)
+          if (!lies_on(facet, faces[f]))
+            clip(part, faces[f]);
+          else if (normal * faces[f].normal < 0 &&
+                   !grid.cell(c)->at_boundary(f))
+            part.clear(); // the neighbour is on the inner side
+        if (part.size() < dim ||
+            area_vector_of(part).norm() <
+              1e-12 * std::pow(grid.size(c), double(dim - 1)))
+          part.clear();
+        return part;
+      }
+
+    private:
+      bool lies_on(const Corners<dim> &facet, const HalfSpace<dim> &face) const
+      {
+        return std::all_of(facet.begin(), facet.end(), [&](const auto &corner) {
+          return std::abs((corner - face.point) * face.normal) <= tolerance;
+        });
+      }
+
+      const BackgroundGrid<dim> &grid;
+      const double               tolerance;
+    };
+
+
+
+    template <int dim>
+    std::vector<SeededBoundaryParticle<dim>>
+    seed_cut(const std::vector<Corners<dim>> &facets,
+             const FacetRule<dim>            &rule,
+             const BackgroundGrid<dim>       &grid)
+    {
+      const FacetCutter<dim>                   cutter(grid);
+      std::vector<SeededBoundaryParticle<dim>> mine;
+      std::vector<ParticleGroup>               groups;
+      Tensor<1, dim>                           margin;
+      for (unsigned int d = 0; d < dim; ++d)
+        margin[d] = 1e-9 * grid.smallest_size();
+      for (unsigned int f = 0; f < facets.size(); ++f)
+        {
+          const auto box = BoundingBox<dim>(facets[f]).get_boundary_points();
+          for (const unsigned int c :
+               grid.cells_near(box.first - margin, box.second + margin))
+            {
+              const auto part = grid.is_owned(c) ?
+                                  cutter.part_in(c, facets[f]) :
+                                  Corners<dim>();
+              if (part.empty())
+                continue;
+              const auto particles = rule.particles(part);
+              groups.push_back(
+                {f, grid.cell(c)->id(), unsigned(particles.size())});
+              for (auto particle : particles)
+                {
+                  particle.cell = c;
+                  mine.push_back(particle);
+                }
+            }
+        }
+      const auto  first = first_numbers(groups, grid.communicator());
+      std::size_t b     = 0;
+      for (unsigned int g = 0; g < groups.size(); ++g)
+        for (unsigned int i = 0; i < groups[g].n_particles; ++i, ++b)
+          mine[b].number = first[g] + i;
+      return mine;
+    }
+
+
+
+    /** Those of @p all not yet @p found that lie, moved by @p nudge times their
+     * normals, in own cells; notes which ones any rank found. Collective. */
+    template <int dim>
+    void find_particles(const std::vector<SeededBoundaryParticle<dim>> &all,
+                        const double                                    nudge,
+                        const BackgroundGrid<dim>                      &grid,
+                        std::vector<unsigned int>                      &found,
+                        std::vector<SeededBoundaryParticle<dim>>       &mine)
+    {
+      Point<dim> xi;
+      for (std::size_t b = 0; b < all.size(); ++b)
+        if (found[b] == 0)
+          {
+            const unsigned int c =
+              grid.find(all[b].x + nudge * all[b].normal, xi);
+            if (c == grid.nowhere || !grid.is_owned(c))
+              continue;
+            found[b] = 1;
+            mine.push_back(all[b]);
+            mine.back().cell = c;
+          }
+      Utilities::MPI::max(found, grid.communicator(), found);
+    }
+
+
+
+    template <int dim>
+    std::vector<SeededBoundaryParticle<dim>>
+    seed_uncut(const std::vector<Corners<dim>> &facets,
+               const FacetRule<dim>            &rule,
+               const BackgroundGrid<dim>       &grid)
+    {
+      std::vector<SeededBoundaryParticle<dim>> all, mine;
+      for (const auto &facet : facets)
+        for (auto particle : rule.particles(facet))
+          {
+            particle.number = all.size();
+            all.push_back(particle);
+          }
+      std::vector<unsigned int> found(all.size(), 0);
+      const double nudge = -particle_on_face * grid.smallest_size();
+      find_particles(all, nudge, grid, found, mine);
+      find_particles(all, 0., grid, found, mine); // on the grid's own border
+      std::sort(mine.begin(), mine.end(), [](const auto &a, const auto &b) {
+        return a.number < b.number;
+      });
+
+      // Those outside of the grid leave no gaps in the numbers.
+      std::vector<std::size_t> numbers(all.size());
+      std::size_t              next = 0;
+      for (std::size_t b = 0; b < all.size(); ++b)
+        numbers[b] = found[b] == 1 ? next++ : 0;
+      for (auto &particle : mine)
+        particle.number = numbers[particle.number];
+      return mine;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<SeededBoundaryParticle<dim>>
+  seed_boundary(const ParameterFile       &file,
+                const BoundaryParameters  &boundary,
+                const BackgroundGrid<dim> &grid)
+  {
+    const auto           facets = make_facets<dim>(file, boundary);
+    const FacetRule<dim> rule(boundary.rule, boundary.particles_per_segment);
+    const auto           mine = boundary.rule == "cut" ?
+                                  seed_cut(flat_facets(facets), rule, grid) :
+                                  seed_uncut(facets, rule, grid);
+    if (Utilities::MPI::sum(mine.size(), grid.communicator()) == 0)
+      throw file.error(boundary.polyline.empty() ?
+                         boundary.mesh.section + (boundary.mesh.file.empty() ?
+                                                    "/Generator" :
+                                                    "/File") :
+                         boundary.section + "/Polyline",
+                       "the whole boundary '" + boundary.name +
+                         "' lies outside of the grid",
+                       "Move it into the grid, or enlarge the grid.");
+    return mine;
+  }
+
+  template std::vector<SeededBoundaryParticle<2>>
+  seed_boundary(const ParameterFile &,
+                const BoundaryParameters &,
+                const BackgroundGrid<2> &);
+  template std::vector<SeededBoundaryParticle<3>>
+  seed_boundary(const ParameterFile &,
+                const BoundaryParameters &,
+                const BackgroundGrid<3> &);
+} // namespace Impoint

@@ -1,0 +1,107 @@
+#include <impoint/particles/material_points.h>
+
+#include <algorithm>
+
+namespace Impoint
+{
+  template <int dim>
+  MaterialPoints<dim>::Slots::Slots(const CarriedState &carried)
+    : x(layout.add("position", dim))
+    , u(layout.add("displacement", dim))
+    , F(layout.add("deformation gradient", dim * dim))
+    , stress(layout.add("stress", Voigt<dim>::n + (dim == 2 ? 1 : 0)))
+    , mass(layout.add("mass", 1))
+    , volume(layout.add("volume", 1))
+    , body(layout.add("body", 1))
+    , v(layout.add("velocity", carried.dynamic ? dim : 0))
+    , a(layout.add("acceleration", carried.dynamic ? dim : 0))
+    , initial_stress(layout.add("initial stress",
+                                carried.initial_stress ? Voigt<dim>::n : 0))
+    , history(layout.add("history", carried.n_history))
+  {}
+
+
+
+  template <int dim>
+  MaterialPoints<dim>::MaterialPoints(
+    const Basis<dim>                      &basis,
+    const CarriedState                    &carried,
+    std::vector<std::shared_ptr<Material>> materials)
+    : PointCloud<dim>(basis, Slots(carried).layout)
+    , slot(carried)
+    , carried_state(carried)
+    , materials(std::move(materials))
+  {
+    for (const auto &material : this->materials)
+      {
+        all_small_strain &= material->small_strain();
+        all_constant &= material->constant_tangent();
+      }
+  }
+
+
+
+  template <int dim>
+  double MaterialPoints<dim>::young() const
+  {
+    double largest = 0;
+    for (const auto &material : materials)
+      largest = std::max(largest, material->young());
+    return largest;
+  }
+
+
+
+  template <int dim>
+  void MaterialPoints<dim>::respond(const unsigned int           p,
+                                    const Tensor<2, dim>        &grad_u,
+                                    const bool                   tangent_wanted,
+                                    Materials::Deformation<dim> &deformation,
+                                    Materials::Response<dim>    &response,
+                                    double *new_history) const
+  {
+    const double *state        = this->data(p);
+    deformation.grad_increment = grad_u;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        {
+          double sum = state[slot.F + i * dim + j];
+          for (unsigned int k = 0; k < dim; ++k)
+            sum += grad_u[i][k] * state[slot.F + k * dim + j];
+          deformation.F[i][j] = sum;
+        }
+    for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
+      deformation.old_stress[k] = state[slot.stress + k];
+    if constexpr (dim == 2)
+      deformation.old_stress_zz = state[slot.stress + Voigt<dim>::n];
+
+    const Material &material = this->material(p);
+    material.respond(deformation,
+                     carried_state.n_history > 0 ? state + slot.history :
+                                                   nullptr,
+                     new_history,
+                     tangent_wanted,
+                     response);
+
+    // A constant second Piola-Kirchhoff stress has no part in the Lie
+    // derivative of the Kirchhoff stress: the tangent stays as it is. (Models
+    // in rate form started from the initial stress.)
+    if (carried_state.initial_stress && !material.small_strain())
+      for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
+        {
+          const unsigned int i = Voigt<dim>::row(k), j = Voigt<dim>::column(k);
+          for (unsigned int l = 0; l < Voigt<dim>::n; ++l)
+            {
+              const unsigned int r = Voigt<dim>::row(l),
+                                 s = Voigt<dim>::column(l);
+              const double S       = state[slot.initial_stress + l];
+              response.stress[k] +=
+                deformation.F[i][r] * S * deformation.F[j][s] +
+                (r == s ? 0. : deformation.F[i][s] * S * deformation.F[j][r]);
+            }
+        }
+  }
+
+  template class MaterialPoints<2>;
+  template class MaterialPoints<3>;
+} // namespace Impoint

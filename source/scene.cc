@@ -1,0 +1,152 @@
+#include <impoint/base/parameter_file.h>
+#include <impoint/materials/material.h>
+#include <impoint/scene.h>
+
+namespace Impoint
+{
+  void OutputParameters::declare(ParameterFile &file)
+  {
+    auto &prm = file.handler();
+    prm.enter_subsection("Output");
+    prm.add_parameter("Folder",
+                      folder,
+                      "Where the results go; relative to this file.",
+                      Patterns::Anything());
+    prm.add_parameter("Verbosity",
+                      verbosity,
+                      "What the terminal shows: nothing, the table of results, "
+                      "also the steps, or also where the time went.",
+                      Patterns::Selection("silent|results|normal|talkative"));
+    prm.add_parameter("Pictures every",
+                      every,
+                      "Steps between two pictures for ParaView (the first and "
+                      "last state are always pictured); 0: no pictures at all.",
+                      Patterns::Integer(0));
+    prm.leave_subsection();
+    file.declare_as_path("Output/Folder");
+  }
+
+
+
+  template <int dim>
+  Scene<dim>::Scene(ParameterFile &file)
+  {
+    declare_entries(file);
+    file.apply();
+    check(file);
+  }
+
+
+
+  template <int dim>
+  void Scene<dim>::declare(ParameterFile &file)
+  {
+    // The handler keeps addresses of the members: they live as long as it.
+    static Scene<dim> scene;
+    scene.declare_entries(file);
+  }
+
+
+
+  template <int dim>
+  void Scene<dim>::declare_entries(ParameterFile &file)
+  {
+    auto &prm = file.handler();
+    prm.add_parameter("Title", title, "What the scene shows, in a line.");
+    prm.declare_entry("Dimension",
+                      "2",
+                      Patterns::Selection("2|3"),
+                      "Dimension of space; 2 is plane strain.");
+    grid.declare(file);
+
+    prm.enter_subsection("Bodies");
+    prm.declare_entry("Names",
+                      "",
+                      Patterns::Anything(),
+                      "Names of the bodies, separated by commas; each has a "
+                      "section of its name.");
+    prm.leave_subsection();
+    for (const std::string &name : file.names("Bodies/Names"))
+      {
+        bodies.emplace_back().declare(file, name);
+        Materials::declare_parameters(file, "Bodies/" + name + "/Material");
+      }
+
+    prm.enter_subsection("Boundaries");
+    prm.declare_entry("Names",
+                      "",
+                      Patterns::Anything(),
+                      "Names of the boundaries, separated by commas; each has a "
+                      "section of its name.");
+    prm.leave_subsection();
+    for (const std::string &name : file.names("Boundaries/Names"))
+      {
+        boundaries.emplace_back().declare(file, name);
+        conditions.emplace_back().declare(file, name);
+      }
+
+    time.declare(file);
+    newton.declare(file);
+    linear_solver.declare(file);
+
+    prm.enter_subsection("Measurements");
+    prm.declare_entry("Names",
+                      "",
+                      Patterns::Anything(),
+                      "Names of what is measured, separated by commas; each has "
+                      "a section of its name.");
+    prm.leave_subsection();
+    for (const std::string &name : file.names("Measurements/Names"))
+      measurements.emplace_back().declare(file, name);
+    output.declare(file);
+  }
+
+
+
+  template <int dim>
+  void Scene<dim>::check(const ParameterFile &file) const
+  {
+    grid.check(file, dim);
+    if (bodies.empty())
+      throw file.error("Bodies/Names",
+                       "the scene has no body",
+                       "name one, e.g. Names = block, and describe it in a "
+                       "section of that name");
+    for (const auto &body : bodies)
+      {
+        body.check(file, dim);
+        if (!(body.density > 0))
+          throw file.error(body.section + "/Density",
+                           "the density of body '" + body.name + "' is " +
+                             file.value(body.section + "/Density"),
+                           "set the mass per volume in kg/m3, above 0");
+      }
+    for (unsigned int i = 0; i < boundaries.size(); ++i)
+      {
+        boundaries[i].check(file, dim);
+        conditions[i].check(file, dim, boundaries[i].kind == "conforming");
+      }
+    time.check(file);
+    for (const auto &measurement : measurements)
+      measurement.check(file, dim);
+    check_support(file);
+  }
+
+
+
+  template <int dim>
+  void Scene<dim>::check_support(const ParameterFile &file) const
+  {
+    bool held = time.is_dynamic();
+    for (const auto &condition : conditions)
+      held |= condition.constraint != "traction";
+    if (!held)
+      throw file.error("Boundaries/Names",
+                       "nothing holds the bodies of a quasi-static scene",
+                       "add a boundary that is fixed, a roller or slip, or set "
+                       "Kind = dynamic in section 'Time'");
+  }
+
+  template struct Scene<2>;
+  template struct Scene<3>;
+} // namespace Impoint

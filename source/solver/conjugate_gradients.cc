@@ -1,0 +1,115 @@
+#include <impoint/base/exceptions.h>
+#include <impoint/solver/conjugate_gradients.h>
+
+#include <cmath>
+
+namespace Impoint
+{
+  namespace
+  {
+    double dot_product(const std::vector<double> &a,
+                       const std::vector<double> &b)
+    {
+      double sum = 0;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+      return sum;
+    }
+
+    /** Also catches NaN, which compares false. */
+    void require_positive(const double value, const std::string &meaning)
+    {
+      if (!(value > 0) || !std::isfinite(value))
+        throw StepFailed(
+          "The linear system is not positive definite: conjugate gradients met " +
+          meaning + " = " + std::to_string(value) +
+          ". A body without sufficient supports, a material that softens, or "
+          "values that are not finite bring this about.");
+    }
+
+    /** Whether the mean rate so far will not reach the tolerance within the
+     * iterations allowed: with a margin for the pace picking up, which is the
+     * smaller the more iterations have shown it. */
+    bool hopeless(const IterationControl &control,
+                  const IterationResult  &result)
+    {
+      constexpr unsigned int probation = 3;
+      if (!control.give_up_early || result.iterations < probation)
+        return false;
+      if (result.reduction >= 1)
+        return true;
+      const double expected = result.iterations * std::log(control.tolerance) /
+                              std::log(result.reduction);
+      return expected > (1. + 1. / result.iterations) * control.max_iterations;
+    }
+  } // namespace
+
+  template <int dim>
+  IterationResult conjugate_gradients(const BlockMatrix<dim>    &matrix,
+                                      const Preconditioner      &preconditioner,
+                                      const std::vector<double> &b,
+                                      const IterationControl    &control,
+                                      std::vector<double>       &x)
+  {
+    IterationResult     result;
+    std::vector<double> r = b, z(b.size()), q(b.size());
+    x.assign(b.size(), 0.);
+
+    if (dot_product(b, b) == 0)
+      {
+        result.converged = true;
+        result.reduction = 0;
+        return result;
+      }
+
+    preconditioner.vmult(r, z);
+    std::vector<double> p       = z;
+    const double        initial = dot_product(r, z);
+    require_positive(initial, "r . M r");
+
+    double r_dot_z = initial;
+    while (result.iterations < control.max_iterations &&
+           !hopeless(control, result))
+      {
+        matrix.vmult(p.data(), q.data());
+        const double p_dot_q = dot_product(p, q);
+        require_positive(p_dot_q, "p . A p");
+
+        const double alpha = r_dot_z / p_dot_q;
+        for (std::size_t i = 0; i < x.size(); ++i)
+          {
+            x[i] += alpha * p[i];
+            r[i] -= alpha * q[i];
+          }
+        ++result.iterations;
+
+        preconditioner.vmult(r, z);
+        const double previous = r_dot_z;
+        r_dot_z               = dot_product(r, z);
+        // at round-off the product may have either sign
+        result.reduction = std::sqrt(std::abs(r_dot_z) / initial);
+        if (result.reduction <= control.tolerance)
+          {
+            result.converged = true;
+            break;
+          }
+        require_positive(r_dot_z, "r . M r");
+
+        const double beta = r_dot_z / previous;
+        for (std::size_t i = 0; i < p.size(); ++i)
+          p[i] = z[i] + beta * p[i];
+      }
+    return result;
+  }
+
+  template IterationResult conjugate_gradients<2>(const BlockMatrix<2> &,
+                                                  const Preconditioner &,
+                                                  const std::vector<double> &,
+                                                  const IterationControl &,
+                                                  std::vector<double> &);
+  template IterationResult conjugate_gradients<3>(const BlockMatrix<3> &,
+                                                  const Preconditioner &,
+                                                  const std::vector<double> &,
+                                                  const IterationControl &,
+                                                  std::vector<double> &);
+} // namespace Impoint

@@ -1,0 +1,293 @@
+#include <impoint/base/exceptions.h>
+#include <impoint/base/parameter_file.h>
+#include <impoint/solver/band_preconditioner.h>
+#include <impoint/solver/direct_solver.h>
+#include <impoint/solver/linear_solver.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/patterns.h>
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+namespace Impoint
+{
+  namespace
+  {
+    /**
+     * Unknowns from which 'automatic' iterates. For one solve with one matrix
+     * (tests/benchmarks/linear_solvers.cc, CPU time of one core, OpenBLAS) both
+     * cost the same at about 4e3 unknowns in 3D and below 3e3 in 2D on a
+     * lattice; without one, at about 6e4 in 3D, while in 2D the factor is still
+     * three times faster at 9e4 (what lies beyond is extrapolated). A factor
+     * serves further solves at a fifteenth to a quarter of an iteration's price
+     * and minds the conditioning less, so 2D prefers it while it costs no more
+     * than a tenth of a second.
+     */
+    template <int dim>
+    std::size_t iterate_from(const bool on_lattice)
+    {
+      if (dim == 2)
+        return on_lattice ? 40000 : 400000;
+      return on_lattice ? 6000 : 60000;
+    }
+
+    /** An old factor may iterate for this part of the time that a
+     * factorisation takes. */
+    constexpr double old_factor_share = 0.7;
+
+    /** After an old factor has failed, that many matrices are factorised at
+     * once before one is tried again; doubled by every further failure. */
+    constexpr unsigned int longest_distrust = 8;
+  } // namespace
+
+  void LinearSolverParameters::declare(ParameterFile &file)
+  {
+    EntryHandler &prm = file.handler();
+    prm.enter_subsection("Linear solver");
+    prm.add_parameter("Kind",
+                      kind,
+                      "A direct factorisation, conjugate gradients with the "
+                      "band preconditioner, or the choice by dimension and "
+                      "number of unknowns.",
+                      Patterns::Selection("automatic|direct|iterative"));
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Reduction of the preconditioned residual [-].",
+                      Patterns::Double(1e-15, 0.1));
+    prm.add_parameter("Maximum iterations",
+                      max_iterations,
+                      "Of conjugate gradients; a solve that needs more fails "
+                      "the step.",
+                      Patterns::Integer(1));
+    prm.add_parameter("Moderate enforcement",
+                      moderate,
+                      "Stiffness of boundary conditions in the V-cycle of the "
+                      "preconditioner [E/h].",
+                      Patterns::Double(1e-3));
+    prm.add_parameter("Sliver",
+                      sliver,
+                      "Nodes with a diagonal stiffness below this part of the "
+                      "median are solved for exactly [-].",
+                      Patterns::Double(0., 1.));
+    prm.add_parameter("Renew iterations",
+                      renew_iterations,
+                      "A preconditioner made for an earlier matrix is kept "
+                      "while it needs no more iterations than this.",
+                      Patterns::Integer(0));
+    prm.leave_subsection();
+  }
+
+  template <int dim>
+  struct LinearSolver<dim>::Implementation
+  {
+    Implementation(const LinearSolverParameters &parameters, Counters &counters)
+      : parameters(parameters)
+      , counters(counters)
+      , band(parameters.sliver)
+    {}
+
+    /** Makes the factor or the band preconditioner for this matrix. */
+    void renew(const LinearProblem<dim> &problem);
+
+    /** Solves with what was made for an earlier matrix, if that pays. */
+    bool try_old(const LinearProblem<dim>  &problem,
+                 const std::vector<double> &b,
+                 std::vector<double>       &x);
+
+    IterationResult iterate(const LinearProblem<dim>  &problem,
+                            const std::vector<double> &b,
+                            const IterationControl    &control,
+                            std::vector<double>       &x);
+
+    unsigned int most_iterations_of_old() const;
+
+    const LinearSolverParameters &parameters;
+    Counters                     &counters;
+
+    bool                    iterative = false;
+    DirectSolver<dim>       factor;
+    BandPreconditioner<dim> band;
+
+    bool         exists  = false; // factor or band, for some matrix
+    bool         current = false; // for this very matrix
+    bool         proved  = false; // current, and one solve was enough
+    unsigned int iterations_when_new = 0;
+
+    // old factors that did not serve: how many matrices in a row are to be
+    // factorised at once, and how many of these are left
+    unsigned int distrust = 0, distrusted = 0;
+  };
+
+  template <int dim>
+  void
+  LinearSolver<dim>::Implementation::renew(const LinearProblem<dim> &problem)
+  {
+    exists = current = proved = false;
+    iterations_when_new       = 0;
+    ++counters.factorisations;
+    const std::optional<unsigned int> failed =
+      iterative ? band.renew(problem) :
+                  factor.factorize(problem.matrix, problem.regularisation);
+    if (failed)
+      {
+        std::ostringstream message;
+        message << "The linear system is not positive definite: no positive "
+                   "pivot at the node at ("
+                << problem.points[*failed]
+                << "). A body without sufficient supports, a material that "
+                   "softens, or too large a step bring this about.";
+        throw StepFailed(message.str());
+      }
+    exists = current = true;
+  }
+
+  template <int dim>
+  unsigned int LinearSolver<dim>::Implementation::most_iterations_of_old() const
+  {
+    if (iterative)
+      return std::max(parameters.renew_iterations,
+                      iterations_when_new + iterations_when_new / 2 + 5);
+    return static_cast<unsigned int>(old_factor_share *
+                                     factor.solves_per_factorisation());
+  }
+
+  template <int dim>
+  IterationResult
+  LinearSolver<dim>::Implementation::iterate(const LinearProblem<dim>  &problem,
+                                             const std::vector<double> &b,
+                                             const IterationControl    &control,
+                                             std::vector<double>       &x)
+  {
+    const Preconditioner &preconditioner =
+      iterative ? static_cast<const Preconditioner &>(band) : factor;
+    const IterationResult result =
+      conjugate_gradients(problem.matrix, preconditioner, b, control, x);
+    counters.linear_iterations += result.iterations;
+    // the first iteration with its own factor is the direct solve
+    if (!iterative && current && result.iterations > 0)
+      --counters.linear_iterations;
+    return result;
+  }
+
+  template <int dim>
+  bool
+  LinearSolver<dim>::Implementation::try_old(const LinearProblem<dim>  &problem,
+                                             const std::vector<double> &b,
+                                             std::vector<double>       &x)
+  {
+    if (distrusted > 0)
+      {
+        --distrusted;
+        return false;
+      }
+    IterationControl control;
+    control.tolerance      = parameters.tolerance;
+    control.max_iterations = most_iterations_of_old();
+    control.give_up_early  = true;
+    const bool served      = iterate(problem, b, control, x).converged;
+    distrust   = served ? 0 : std::min(longest_distrust, 2 * distrust + 1);
+    distrusted = distrust;
+    return served;
+  }
+
+  template <int dim>
+  LinearSolver<dim>::LinearSolver(const LinearSolverParameters &parameters,
+                                  Counters                     &counters)
+    : implementation(std::make_unique<Implementation>(parameters, counters))
+  {}
+
+  template <int dim>
+  LinearSolver<dim>::~LinearSolver() = default;
+
+  template <int dim>
+  void LinearSolver<dim>::new_pattern(const LinearProblem<dim> &problem)
+  {
+    Implementation &data = *implementation;
+    data.exists = data.current = data.proved = false;
+    data.distrust = data.distrusted = 0;
+    data.iterative =
+      iterative(static_cast<std::size_t>(problem.pattern.n_rows()) * dim,
+                !problem.lattice.empty());
+    if (data.iterative)
+      data.band.new_pattern();
+    else
+      data.factor.new_pattern(problem.pattern);
+  }
+
+  template <int dim>
+  bool LinearSolver<dim>::iterative(const std::size_t n_unknowns,
+                                    const bool        on_lattice) const
+  {
+    const std::string &kind = implementation->parameters.kind;
+    return kind == "iterative" ||
+           (kind == "automatic" && n_unknowns >= iterate_from<dim>(on_lattice));
+  }
+
+  template <int dim>
+  void LinearSolver<dim>::new_matrix(const LinearProblem<dim> &problem)
+  {
+    Implementation &data = *implementation;
+    data.current = data.proved = false;
+    // a stiff enforcement outside of the old band would not be bounded
+    if (data.iterative && !data.band.serves(problem))
+      data.exists = false;
+  }
+
+  template <int dim>
+  void LinearSolver<dim>::solve(const LinearProblem<dim>  &problem,
+                                const std::vector<double> &b,
+                                std::vector<double>       &x)
+  {
+    Implementation &data = *implementation;
+    Assert(b.size() == problem.pattern.n_rows() * dim,
+           ExcDimensionMismatch(b.size(), problem.pattern.n_rows() * dim));
+    if (data.proved)
+      {
+        data.factor.vmult(b, x);
+        return;
+      }
+    if (data.exists && !data.current && data.try_old(problem, b, x))
+      return;
+    if (!data.current)
+      data.renew(problem);
+
+    IterationControl control;
+    control.tolerance            = data.parameters.tolerance;
+    control.max_iterations       = data.parameters.max_iterations;
+    const IterationResult result = data.iterate(problem, b, control, x);
+    data.iterations_when_new =
+      std::max(data.iterations_when_new, result.iterations);
+    if (!result.converged)
+      {
+        std::ostringstream message;
+        message << "The linear system was not solved in " << result.iterations
+                << " iterations of conjugate gradients: the preconditioned "
+                   "residual fell by "
+                << result.reduction << " only, not by " << control.tolerance
+                << ". The matrix is singular (a body without sufficient "
+                   "supports) or badly conditioned; 'Kind = direct' in section "
+                   "'Linear solver' copes with the latter.";
+        throw StepFailed(message.str());
+      }
+    // the regularisation's trace depends on the right-hand side
+    data.proved = !data.iterative && result.iterations == 1 &&
+                  std::none_of(problem.regularisation.begin(),
+                               problem.regularisation.end(),
+                               [](const double value) { return value > 0; });
+  }
+
+  template <int dim>
+  std::string LinearSolver<dim>::description() const
+  {
+    const Implementation &data = *implementation;
+    if (!data.iterative)
+      return data.factor.supernodal() ? "CHOLMOD (supernodal)" :
+                                        "CHOLMOD (simplicial)";
+    return "CG, " + data.band.description();
+  }
+
+  template class LinearSolver<2>;
+  template class LinearSolver<3>;
+} // namespace Impoint

@@ -1,0 +1,143 @@
+#include <impoint/base/exceptions.h>
+#include <impoint/base/parameter_file.h>
+#include <impoint/solver/newton.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace Impoint
+{
+  void NewtonParameters::declare(ParameterFile &file)
+  {
+    auto &prm = file.handler();
+    prm.enter_subsection("Newton");
+    prm.add_parameter("Maximum iterations",
+                      max_iterations,
+                      "A step that needs more is halved and repeated.",
+                      Patterns::Integer(1));
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Residual, relative to the forces that balance in it.",
+                      Patterns::Double(1e-15, 1e-2));
+    prm.add_parameter("Increment tolerance",
+                      increment_tolerance,
+                      "Last correction, relative to the step's displacements.",
+                      Patterns::Double(1e-15, 1));
+    prm.add_parameter("Line search",
+                      line_search,
+                      "Shorten corrections that make the residual larger.",
+                      Patterns::Bool());
+    prm.leave_subsection();
+  }
+
+
+
+  template <int dim>
+  Newton<dim>::Newton(const NewtonParameters &parameters,
+                      NonlinearSystem<dim> &  system,
+                      Counters &              counters)
+    : parameters(parameters)
+    , system(system)
+    , counters(counters)
+  {}
+
+
+
+  template <int dim>
+  void Newton<dim>::solve(Vector &u)
+  {
+    // Round-off of huge penalties keeps residuals from falling further.
+    constexpr double stalled_increment = 1e-12, stalled_residual = 1e-6;
+
+    Vector delta;
+    history.assign(1, system.evaluate(u, true));
+    for (unsigned int iteration = 0; iteration < parameters.max_iterations;
+         ++iteration)
+      {
+        ++counters.newton_iterations;
+        system.correct(iteration == 0, delta);
+        if (system.is_linear())
+          {
+            u += delta;
+            u.update_ghost_values();
+            // reactions of held nodes are what the residual leaves there
+            history.push_back(system.has_held_nodes() ?
+                                system.evaluate(u, false) :
+                                system.linear_residual(delta));
+            return;
+          }
+        history.push_back(advance(delta, !expects_convergence(), u));
+        const double size      = u.linfty_norm();
+        const double increment = size > 0 ? delta.linfty_norm() / size : 0.;
+        if ((history.back() <= parameters.tolerance &&
+             increment <= parameters.increment_tolerance) ||
+            (increment <= stalled_increment && history.back() <= stalled_residual))
+          return;
+        if (!tangent_is_new)
+          system.evaluate(u, true);
+      }
+    std::ostringstream text;
+    text << "Newton's iteration left a relative residual of " << history.back()
+         << " after " << parameters.max_iterations << " iterations";
+    throw StepFailed(text.str());
+  }
+
+
+
+  /** Whether the next residual will be small enough, if it goes on falling
+   * quadratically: then no tangent is assembled with it. */
+  template <int dim>
+  bool Newton<dim>::expects_convergence() const
+  {
+    const unsigned int n = history.size();
+    return n >= 2 && history[n - 1] < 1e-2 * history[n - 2] &&
+           history[n - 1] * history[n - 1] / history[n - 2] <
+             parameters.tolerance;
+  }
+
+
+
+  template <int dim>
+  double Newton<dim>::advance(const Vector &delta,
+                              const bool    tangent_wanted,
+                              Vector &      u)
+  {
+    constexpr double     worst_growth = 2.;
+    constexpr unsigned   max_cuts     = 8;
+    const Vector         start(u);
+    double               part = 1.;
+    for (unsigned int cut = 0;; ++cut, part *= 0.5)
+      {
+        u = start;
+        u.add(part, delta);
+        u.update_ghost_values();
+        const bool last = !parameters.line_search || cut == max_cuts;
+        try
+          {
+            // Multipliers follow full steps only: cut ones are far from them.
+            if (cut == 0)
+              system.update_multipliers(u);
+            tangent_is_new        = tangent_wanted && cut == 0;
+            const double residual = system.evaluate(u, tangent_is_new);
+            // The first correction brings prescribed displacements in: there
+            // is nothing to compare its residual with.
+            if (last || history.size() == 1 || std::isfinite(residual) == false ||
+                residual <= worst_growth * history.back())
+              {
+                if (!std::isfinite(residual))
+                  throw StepFailed("the residual is not a number");
+                return residual;
+              }
+          }
+        catch (const StepFailed &)
+          {
+            if (last)
+              throw;
+          }
+      }
+  }
+
+  template class Newton<2>;
+  template class Newton<3>;
+} // namespace Impoint

@@ -1,0 +1,303 @@
+#include <impoint/terms/internal_force.h>
+
+#include <algorithm>
+
+namespace Impoint
+{
+  namespace
+  {
+    constexpr int largest_support = 64; // cubic splines in 3D
+
+    /** Number of nodes: a constant for the compiler where it is known. */
+    template <int n_static>
+    constexpr int array_size = n_static > 0 ? n_static : largest_support;
+
+    template <int dim>
+    constexpr int voigt_index(const int i, const int j)
+    {
+      if constexpr (dim == 2)
+        return i == j ? i : 2;
+      else
+        return i == j ? i : i + j + 2;
+    }
+
+    /** grad u = sum_a u_a x G_a (at the start of the step). */
+    template <int dim>
+    Tensor<2, dim>
+    displacement_gradient(const int n, const double *u, const double *gradients)
+    {
+      Tensor<2, dim> grad_u;
+      for (int a = 0; a < n; ++a)
+        for (int i = 0; i < dim; ++i)
+          for (int j = 0; j < dim; ++j)
+            grad_u[i][j] += u[a * dim + i] * gradients[a * dim + j];
+      return grad_u;
+    }
+
+    /** Gradients at the end of the step: G_a f^-1, f = 1 + grad u. */
+    template <int dim>
+    void push_forward(const int             n,
+                      const Tensor<2, dim> &grad_u,
+                      const double *        start,
+                      double *              end)
+    {
+      Tensor<2, dim> f = grad_u;
+      for (int d = 0; d < dim; ++d)
+        f[d][d] += 1.;
+      const Tensor<2, dim> inverse = invert(f);
+      for (int a = 0; a < n; ++a)
+        for (int j = 0; j < dim; ++j)
+          {
+            double sum = 0;
+            for (int i = 0; i < dim; ++i)
+              sum += start[a * dim + i] * inverse[i][j];
+            end[a * dim + j] = sum;
+          }
+    }
+
+    /** r_a += V B_a^T tau */
+    template <int dim>
+    void add_force(const int               n,
+                   const double            volume,
+                   const VoigtVector<dim> &stress,
+                   const double *          gradients,
+                   double *                residual)
+    {
+      for (int a = 0; a < n; ++a)
+        for (int i = 0; i < dim; ++i)
+          {
+            double sum = 0;
+            for (int j = 0; j < dim; ++j)
+              sum += stress[voigt_index<dim>(i, j)] * gradients[a * dim + j];
+            residual[a * dim + i] += volume * sum;
+          }
+    }
+
+    /** K_ab += V B_a^T c B_b for b >= a, and the geometric part
+     * g_ab += V g_a . tau g_b. */
+    template <int dim>
+    void add_stiffness(const int                       n,
+                       const double                    volume,
+                       const Materials::Response<dim> &response,
+                       const bool                      geometric,
+                       const double *                  gradients,
+                       double *                        blocks,
+                       double *                        diagonal)
+    {
+      constexpr int n_v = Voigt<dim>::n;
+      double        stress_column[dim]; // V tau g_b
+      double        columns[n_v * dim]; // V c B_b
+      for (int b = 0; b < n; ++b)
+        {
+          const double *g = gradients + b * dim;
+          for (int k = 0; k < n_v; ++k)
+            for (int j = 0; j < dim; ++j)
+              {
+                double sum = 0;
+                for (int l = 0; l < dim; ++l)
+                  sum +=
+                    response.tangent[k * n_v + voigt_index<dim>(j, l)] * g[l];
+                columns[k * dim + j] = volume * sum;
+              }
+          for (int i = 0; i < dim; ++i)
+            {
+              stress_column[i] = 0;
+              for (int j = 0; j < dim; ++j)
+                stress_column[i] +=
+                  volume * response.stress[voigt_index<dim>(i, j)] * g[j];
+            }
+          for (int a = 0; a <= b; ++a)
+            {
+              const double *h     = gradients + a * dim;
+              double *      block = blocks + (a * n + b) * dim * dim;
+              for (int i = 0; i < dim; ++i)
+                for (int j = 0; j < dim; ++j)
+                  {
+                    double sum = 0;
+                    for (int l = 0; l < dim; ++l)
+                      sum += h[l] * columns[voigt_index<dim>(i, l) * dim + j];
+                    block[i * dim + j] += sum;
+                  }
+              if (geometric)
+                {
+                  double sum = 0;
+                  for (int i = 0; i < dim; ++i)
+                    sum += h[i] * stress_column[i];
+                  diagonal[a * n + b] += sum;
+                }
+            }
+        }
+    }
+
+    /** Completes a cell's matrix from its upper blocks and diagonal parts. */
+    template <int dim>
+    void mirror(const int n, const double *upper, const double *diagonal, double *matrix)
+    {
+      for (int b = 0; b < n; ++b)
+        for (int a = 0; a <= b; ++a)
+          for (int i = 0; i < dim; ++i)
+            for (int j = 0; j < dim; ++j)
+              {
+                const double value =
+                  upper[(a * n + b) * dim * dim + i * dim + j] +
+                  (i == j ? diagonal[a * n + b] : 0.);
+                matrix[(a * n + b) * dim * dim + i * dim + j] += value;
+                if (a != b)
+                  matrix[(b * n + a) * dim * dim + j * dim + i] += value;
+              }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  InternalForce<dim>::InternalForce(const MaterialPoints<dim> &points)
+    : points(points)
+  {}
+
+
+
+  template <int dim>
+  void InternalForce<dim>::add(const unsigned int k, CellSystem &system) const
+  {
+    const bool constant = system.matrix != nullptr && one_constant_tangent(k);
+    const auto run      = [&](const auto n_static) {
+      if (constant)
+        add_constant<n_static>(k, system);
+      else
+        add_cell<n_static>(k, system);
+    };
+    switch (system.n)
+      {
+        case dim + 1:
+          return run(std::integral_constant<int, dim + 1>());
+        case (1 << dim):
+          return run(std::integral_constant<int, (1 << dim)>());
+        default:
+          return run(std::integral_constant<int, -1>());
+      }
+  }
+
+
+
+  template <int dim>
+  bool InternalForce<dim>::one_constant_tangent(const unsigned int k) const
+  {
+    const auto &range = points.ranges()[k];
+    if (!points.material(range.begin).constant_tangent())
+      return false;
+    for (unsigned int p = range.begin + 1; p < range.end; ++p)
+      if (points.body(p) != points.body(range.begin))
+        return false;
+    return true;
+  }
+
+
+
+  template <int dim>
+  template <int n_static>
+  void InternalForce<dim>::add_cell(const unsigned int k,
+                                    CellSystem &       system) const
+  {
+    constexpr int size = array_size<n_static>;
+    const int     n    = n_static > 0 ? n_static : system.n;
+    double        upper[size * size * dim * dim], diagonal[size * size];
+    if (system.matrix)
+      {
+        std::fill(upper, upper + n * n * dim * dim, 0.);
+        std::fill(diagonal, diagonal + n * n, 0.);
+      }
+
+    double                      pushed[size * dim];
+    double                      new_history[64];
+    Materials::Deformation<dim> deformation;
+    Materials::Response<dim>    response;
+    const auto &                range = points.ranges()[k];
+    for (unsigned int p = range.begin; p < range.end; ++p)
+      {
+        const double *       gradients = points.support(p) + n;
+        const Tensor<2, dim> grad_u =
+          displacement_gradient<dim>(n, system.u, gradients);
+        points.respond(
+          p, grad_u, system.matrix != nullptr, deformation, response, new_history);
+        const bool finite = !points.material(p).small_strain();
+        if (finite)
+          {
+            push_forward<dim>(n, grad_u, gradients, pushed);
+            gradients = pushed;
+          }
+        const double volume = points.data(p)[points.slots().volume];
+        add_force<dim>(n, volume, response.stress, gradients, system.residual);
+        if (system.matrix)
+          add_stiffness<dim>(
+            n, volume, response, finite, gradients, upper, diagonal);
+      }
+    if (system.matrix)
+      mirror<dim>(n, upper, diagonal, system.matrix);
+  }
+
+
+
+  /** One small-strain material with the same tangent c everywhere: the points
+   * contribute M_ab = sum V g_a x g_b only, and K_ab,ij = c_ikjl M_ab,kl once a
+   * cell. */
+  template <int dim>
+  template <int n_static>
+  void InternalForce<dim>::add_constant(const unsigned int k,
+                                        CellSystem &       system) const
+  {
+    constexpr int size = array_size<n_static>;
+    const int     n    = n_static > 0 ? n_static : system.n;
+    double        moments[size * size * dim * dim];
+    std::fill(moments, moments + n * n * dim * dim, 0.);
+
+    Materials::Deformation<dim> deformation;
+    Materials::Response<dim>    response;
+    double                      new_history[64];
+    const auto &                range = points.ranges()[k];
+    for (unsigned int p = range.begin; p < range.end; ++p)
+      {
+        const double *gradients = points.support(p) + n;
+        const double  volume    = points.data(p)[points.slots().volume];
+        points.respond(p,
+                       displacement_gradient<dim>(n, system.u, gradients),
+                       p == range.begin,
+                       deformation,
+                       response,
+                       new_history);
+        add_force<dim>(n, volume, response.stress, gradients, system.residual);
+        for (int a = 0; a < n; ++a)
+          for (int i = 0; i < dim; ++i)
+            {
+              const double weighted = volume * gradients[a * dim + i];
+              for (int b = a; b < n; ++b)
+                for (int j = 0; j < dim; ++j)
+                  moments[(a * n + b) * dim * dim + i * dim + j] +=
+                    weighted * gradients[b * dim + j];
+            }
+      }
+
+    constexpr int n_v = Voigt<dim>::n;
+    for (int a = 0; a < n; ++a)
+      for (int b = a; b < n; ++b)
+        {
+          const double *M = moments + (a * n + b) * dim * dim;
+          for (int i = 0; i < dim; ++i)
+            for (int j = 0; j < dim; ++j)
+              {
+                double sum = 0;
+                for (int r = 0; r < dim; ++r)
+                  for (int s = 0; s < dim; ++s)
+                    sum += response.tangent[voigt_index<dim>(i, r) * n_v +
+                                            voigt_index<dim>(j, s)] *
+                           M[r * dim + s];
+                system.matrix[(a * n + b) * dim * dim + i * dim + j] += sum;
+                if (a != b)
+                  system.matrix[(b * n + a) * dim * dim + j * dim + i] += sum;
+              }
+        }
+  }
+
+  template class InternalForce<2>;
+  template class InternalForce<3>;
+} // namespace Impoint

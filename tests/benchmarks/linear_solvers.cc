@@ -1,0 +1,150 @@
+// CPU times of the linear solvers on the model problem: CHOLMOD by its own
+// defaults, our direct solver, the iteration. Not a test; run by hand:
+//   OPENBLAS_NUM_THREADS=1 linear_solvers [dimension cells]
+
+#include <impoint/base/exceptions.h>
+#include <impoint/solver/direct_solver.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
+
+#include <suitesparse/cholmod.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "../solver/model_problem.h"
+
+using namespace ModelProblem;
+
+// Seconds that CHOLMOD takes to analyse, factorise, solve.
+template <int dim>
+std::array<double, 3> bare_cholmod(const LinearProblem<dim> &problem,
+                                   std::vector<double>       load)
+{
+  std::vector<int>    start(1, 0), rows;
+  std::vector<double> values;
+  for (unsigned int node = 0; node < problem.points.size(); ++node)
+    for (unsigned int component = 0; component < dim; ++component)
+      {
+        for (std::size_t k = problem.pattern.row_start[node];
+             k < problem.pattern.row_start[node + 1];
+             ++k)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (problem.pattern.columns[k] * dim + d >= node * dim + component)
+              {
+                rows.push_back(problem.pattern.columns[k] * dim + d);
+                values.push_back(
+                  problem.matrix.values[(k * dim + component) * dim + d]);
+              }
+        start.push_back(rows.size());
+      }
+  cholmod_sparse matrix = {};
+  matrix.nrow = matrix.ncol = load.size();
+  matrix.nzmax              = rows.size();
+  matrix.p                  = start.data();
+  matrix.i                  = rows.data();
+  matrix.x                  = values.data();
+  matrix.stype              = -1;
+  matrix.xtype              = CHOLMOD_REAL;
+  matrix.sorted = matrix.packed = true;
+  cholmod_dense right           = {};
+  right.nrow = right.d = right.nzmax = load.size();
+  right.ncol                         = 1;
+  right.x                            = load.data();
+  right.xtype                        = CHOLMOD_REAL;
+
+  cholmod_common common;
+  cholmod_start(&common);
+  Timer           timer;
+  cholmod_factor *factor   = cholmod_analyze(&matrix, &common);
+  const double    analysed = timer.cpu_time();
+  cholmod_factorize(&matrix, factor, &common);
+  const double   factorised = timer.cpu_time();
+  cholmod_dense *solution   = cholmod_solve(CHOLMOD_A, factor, &right, &common);
+  const double   solved     = timer.cpu_time();
+  cholmod_free_dense(&solution, &common);
+  cholmod_free_factor(&factor, &common);
+  cholmod_finish(&common);
+  return {{analysed, factorised - analysed, solved - factorised}};
+}
+
+/** Set-up of the pattern, first solve with all that it takes, one more. */
+template <int dim>
+void time_solver(const Block<dim> &block, const std::string &kind)
+{
+  LinearSolverParameters parameters;
+  parameters.kind = kind;
+  Counters            counters;
+  LinearSolver<dim>   solver(parameters, counters);
+  std::vector<double> x;
+  Timer               timer;
+  solver.new_pattern(block.problem);
+  const double pattern = timer.cpu_time();
+  try
+    {
+      solver.new_matrix(block.problem);
+      solver.solve(block.problem, block.load, x);
+      const double first      = timer.cpu_time();
+      const auto   iterations = counters.linear_iterations;
+      solver.solve(block.problem, block.load, x);
+      const double again = timer.cpu_time() - first;
+      std::printf(" %8.4f %8.4f %8.4f %3zu |",
+                  pattern,
+                  first - pattern - again,
+                  again,
+                  iterations);
+    }
+  catch (const std::runtime_error &error)
+    {
+      std::printf(" %s |", error.what());
+    }
+}
+
+template <int dim>
+void run(const unsigned int cells, const bool with_direct)
+{
+  Settings settings;
+  settings.cells = cells;
+  Block<dim> block(settings);
+  for (const double factor : {1., 1e4, 1e8})
+    {
+      block.set_penalty(factor);
+      std::printf(
+        "%dD %4u %7zu %5.0e |", dim, cells, block.load.size(), factor);
+      if (with_direct)
+        {
+          const std::array<double, 3> bare =
+            bare_cholmod(block.problem, block.load);
+          std::printf(" %8.4f %8.4f %8.4f |", bare[0], bare[1], bare[2]);
+          time_solver(block, "direct");
+        }
+      else
+        std::printf(" - | - |");
+      time_solver(block, "iterative");
+      std::printf("\n");
+      std::fflush(stdout);
+    }
+}
+
+int main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  std::printf(
+    "dimension cells unknowns beta h/E | CHOLMOD: analyse factorise solve"
+    " | direct: pattern, factor, solve, refinements"
+    " | iterative: pattern, set-up, solve, iterations |  [s]\n");
+  if (argc == 3)
+    {
+      const unsigned int cells = std::atoi(argv[2]);
+      if (std::atoi(argv[1]) == 2)
+        run<2>(cells, true);
+      else
+        run<3>(cells, cells <= 40);
+      return 0;
+    }
+  for (const unsigned int cells : {100, 300})
+    run<2>(cells, true);
+  for (const unsigned int cells : {12, 24, 32})
+    run<3>(cells, true);
+}
