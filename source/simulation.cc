@@ -17,7 +17,8 @@ namespace Impoint
                               const Scene<dim> &scene,
                               const RunOptions &options,
                               const MPI_Comm    communicator)
-    : comm(communicator)
+    : start_of_run(std::chrono::steady_clock::now())
+    , comm(communicator)
     , file(file)
     , scene(scene)
     , folder(options.output_folder.empty() ? file.absolute("Output/Folder") :
@@ -35,7 +36,6 @@ namespace Impoint
     , inertia(scene.time)
     , history(folder)
     , pictures(folder)
-    , start_of_run(std::chrono::steady_clock::now())
   {
     folder.check();
     for (const auto &body : scene.bodies)
@@ -181,7 +181,7 @@ namespace Impoint
     if (changed)
       system->new_active_set();
     if (changed || points_changed_cells)
-      system->find_starved_nodes();
+      system->find_starved_cells();
     points_changed_cells = false;
   }
 

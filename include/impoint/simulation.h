@@ -56,6 +56,7 @@ namespace Impoint
 
     Measurements::State<dim> state() const;
 
+    const std::chrono::steady_clock::time_point start_of_run;
     MPI_Comm           comm;
     ParameterFile &    file;
     const Scene<dim> & scene;
@@ -83,7 +84,6 @@ namespace Impoint
     std::vector<std::vector<Point<dim>>> boundary_places; // per method
     std::vector<Measurements::BoundaryForce<dim>> forces;
     RunRecord                            run_record;
-    std::chrono::steady_clock::time_point start_of_run;
   };
 } // namespace Impoint
 

@@ -186,6 +186,8 @@ namespace Impoint
                        place,
                        expression_advice<dim>());
     };
+    if (text.find_first_not_of(" \t") == std::string::npos)
+      return; // nothing written: zero
     const auto components = Words::split(text, ';');
     for (const auto &component : components)
       if (!misunderstood(component).empty())

@@ -52,20 +52,20 @@ namespace Impoint
                       "the particles' normals differ, else particle.",
                       Patterns::Selection("automatic|particle|nodal"));
     prm.declare_entry("Value",
-                      "0",
+                      "",
                       Patterns::Anything(),
                       "Prescribed displacement [m] or velocity [m/s]: "
                       "expressions of x, y, (z,) t separated by ';', of the "
-                      "place at the start of the run. 0: none.");
+                      "place at the start of the run; empty: none.");
     prm.add_parameter("Value is",
                       value_kind,
                       "What 'Value' means.",
                       Patterns::Selection("displacement|velocity"));
     prm.declare_entry("Rotation angle",
-                      "0",
+                      "",
                       Patterns::Anything(),
                       "Angle [rad] by which the boundary has turned at time t, "
-                      "an expression of t.");
+                      "an expression of t; empty: none.");
     prm.add_parameter("Rotation centre",
                       rotation_centre,
                       "A point of the axis of rotation [m].",
@@ -81,7 +81,7 @@ namespace Impoint
                       Patterns::Selection(
                         "with the value|with the material|not"));
     prm.declare_entry("Traction",
-                      "0",
+                      "",
                       Patterns::Anything(),
                       "Load per area at the start [Pa] of a traction boundary: "
                       "expressions of x, y, (z,) t separated by ';'.");

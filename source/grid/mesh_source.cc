@@ -85,8 +85,8 @@ namespace Impoint
 
     template <int dim, int spacedim>
     void call_generator(const ParameterFile          &file,
-                  const MeshParameters         &parameters,
-                  Triangulation<dim, spacedim> &mesh)
+                        const MeshParameters         &parameters,
+                        Triangulation<dim, spacedim> &mesh)
     {
       // Most generators end with a flag to number the sides of the boundary,
       // which everybody wants and nobody should have to write.
@@ -125,8 +125,8 @@ namespace Impoint
 
     template <int dim, int spacedim>
     void read_mesh_file(const ParameterFile          &file,
-              const MeshParameters         &parameters,
-              Triangulation<dim, spacedim> &mesh)
+                        const MeshParameters         &parameters,
+                        Triangulation<dim, spacedim> &mesh)
     {
       const std::string entry = parameters.section + "/File";
       const std::string name  = file.absolute(entry);

@@ -67,8 +67,7 @@ namespace Impoint
     name    = measurement;
     section = "Measurements/" + name;
 
-    const Patterns::List numbers(Patterns::Double(), 0, 3);
-    auto                &prm = file.handler();
+    auto &prm = file.handler();
     prm.enter_subsection("Measurements");
     prm.enter_subsection(name);
     prm.add_parameter(
@@ -84,6 +83,22 @@ namespace Impoint
       "the mass; energy: kinetic, strain, and their sum [J]; newton: "
       "iterations and order of convergence.",
       Patterns::Selection(names_of_quantities()));
+    declare_object(file);
+    declare_field(file);
+    prm.add_parameter("Until",
+                      until,
+                      "Time [s] after which nothing more is measured.",
+                      Patterns::Double());
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+
+
+  void MeasurementParameters::declare_object(ParameterFile &file)
+  {
+    const Patterns::List numbers(Patterns::Double(), 0, 3);
+    auto                &prm = file.handler();
     prm.add_parameter("Body",
                       body,
                       "Body whose points are looked at; empty: all.");
@@ -109,10 +124,17 @@ namespace Impoint
       "",
       Patterns::Anything(),
       "What the results should be, in their order (probe: u_x; u_y; u_z. "
-      "reaction: F_x; F_y; F_z; M_x; M_y; M_z, in 2D F_x; F_y; M_z. path: "
+      "reaction: F_x; F_y; F_z; M_x; M_y; M_z, in 2D F_x; F_y; M_z. impulse: I_x; I_y; I_z. path: "
       "path; angle. run-out: furthest; 99 %. energy: kinetic; strain; total): "
-      "expressions of t separated by ';', in the results' units; 'none', or "
-      "left out at the end: no reference.");
+      "expressions of t separated by ';', in the results' units; 'none' or "
+      "nothing: no reference.");
+  }
+
+
+
+  void MeasurementParameters::declare_field(ParameterFile &file)
+  {
+    auto &prm = file.handler();
     prm.declare_entry("Exact",
                       "",
                       Patterns::Anything(),
@@ -151,12 +173,6 @@ namespace Impoint
                       "Errors: divide by this number [m, m/s, Pa] instead of "
                       "exact values; 0: by exact values.",
                       Patterns::Double(0));
-    prm.add_parameter("Until",
-                      until,
-                      "Time [s] after which nothing more is measured.",
-                      Patterns::Double());
-    prm.leave_subsection();
-    prm.leave_subsection();
   }
 
 
@@ -236,8 +252,9 @@ namespace Impoint
                                 const bool                 required) {
       if (numbers.size() != dim && (required || !numbers.empty()))
         throw file.error(section + "/" + entry,
-                         "'" + file.value(section + "/" + entry) + "' has " +
-                           std::to_string(numbers.size()) + " numbers in " +
+                         "'" + file.value(section + "/" + entry) +
+                           "' is no place or "
+                           "direction in " +
                            std::to_string(dim) + "D",
                          "Give " + std::to_string(dim) +
                            " numbers, separated by commas.");

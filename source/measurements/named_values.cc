@@ -36,7 +36,7 @@ namespace Impoint
                            std::to_string(labels.size()) + " results",
                          "The results are: " + Words::join(labels, ", ") + ".");
       for (unsigned int i = 0; i < texts.size(); ++i)
-        if (texts[i] != "none")
+        if (!texts[i].empty() && texts[i] != "none")
           try
             {
               references[i] = std::make_unique<Expression<dim>>(texts[i], 1);

@@ -52,7 +52,7 @@ namespace Impoint
               {"projections", counters.projections},
               {"visited cells", counters.visited_cells},
               {"visited nodes", counters.visited_nodes},
-              {"starved nodes", counters.starved_nodes}};
+              {"starved cells", counters.starved_cells}};
     }
 
     SummaryJson summary_of_seconds(const Seconds &seconds)

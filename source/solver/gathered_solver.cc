@@ -155,10 +155,10 @@ namespace Impoint
 
 
   template <int dim>
-  bool GatheredSolver<dim>::iterative() const
+  bool GatheredSolver<dim>::iterative(const ActiveNodes<dim> &nodes) const
   {
-    return solver.iterative(n_unknowns,
-                            active->basis().grid().lattice().exists);
+    return solver.iterative(nodes.unknowns()->size(),
+                            nodes.basis().grid().lattice().exists);
   }
 
 

@@ -10,10 +10,6 @@ namespace Impoint
 {
   namespace
   {
-    // Of the typical stiffness: what holds nodes that too few points hold, in
-    // preconditioners and factors only.
-    constexpr double starved_stiffness = 1e-8;
-
     // Forces below this part of E h^(dim-1) are none.
     constexpr double smallest_force = 1e-13;
   } // namespace
@@ -36,6 +32,7 @@ namespace Impoint
     , counters(counters)
     , seconds(seconds)
     , empty_cells(active, points.young())
+    , hourglass(active, points.young())
     , solver(parameters, counters, active.basis().grid().communicator())
   {}
 
@@ -57,6 +54,7 @@ namespace Impoint
     empty_cells.reinit();
     problem.pattern = active.pattern();
     problem.points.resize(active.n_nodes());
+    problem.regularisation.assign(active.n_nodes(), 0.);
     const auto &grid    = active.basis().grid();
     const auto &lattice = grid.lattice();
     problem.lattice.assign(lattice.exists ? active.n_nodes() : 0, {});
@@ -79,39 +77,24 @@ namespace Impoint
 
 
 
-  /** Nodes all of whose cells have too few points for their modes. */
   template <int dim>
-  void NonlinearSystem<dim>::find_starved_nodes()
+  void NonlinearSystem<dim>::find_starved_cells()
   {
-    Vector fed(active.scalars()); // number of cells with enough points
-    const unsigned int n_rigid = dim * (dim + 1) / 2;
-    for (unsigned int k = 0; k < active.n_cells(); ++k)
+    const unsigned int        n_rigid = dim * (dim + 1) / 2;
+    std::vector<unsigned int> starved;
+    for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
-        const auto nodes  = active.nodes(k);
-        bool       enough = true;
-        if (k < active.n_material_cells() && nodes.size() > dim + 1)
-          {
-            const auto &range = points.ranges()[k];
-            enough = (range.end - range.begin) * Voigt<dim>::n >
-                     nodes.size() * dim - n_rigid;
-          }
-        if (enough)
-          for (const unsigned int i : nodes)
-            fed.local_element(i) += 1;
+        const unsigned int n     = active.nodes(k).size();
+        const auto &       range = points.ranges()[k];
+        // Simplices see all their modes with one point. Elsewhere as many
+        // strains as modes are not enough: points may lie on a line.
+        if (n > dim + 1 &&
+            (range.end - range.begin) * Voigt<dim>::n <= n * dim - n_rigid)
+          starved.push_back(k);
       }
-    fed.compress(VectorOperation::add);
-    fed.update_ghost_values();
-    starved.assign(active.n_nodes(), false);
-    unsigned int n_own = 0;
-    for (unsigned int i = 0; i < active.n_nodes(); ++i)
-      if (fed.local_element(i) == 0)
-        {
-          starved[i] = true;
-          n_own += i < active.n_owned_nodes();
-        }
-    n_starved =
-      Utilities::MPI::sum(n_own, active.basis().grid().communicator());
-    counters.starved_nodes = n_starved;
+    hourglass.reinit(starved);
+    counters.starved_cells =
+      Utilities::MPI::sum(starved.size(), active.basis().grid().communicator());
   }
 
 
@@ -233,6 +216,7 @@ namespace Impoint
     const ConsistentMass<dim> consistent_mass(points);
     std::vector<double>       accelerations;
     CellSystem                system;
+    unsigned int              next_starved = 0;
     for (unsigned int k = 0; k < active.n_cells(); ++k)
       {
         const auto nodes = active.nodes(k);
@@ -248,6 +232,9 @@ namespace Impoint
           {
             for (const auto &term : terms)
               term->add(k, system);
+            if (next_starved < hourglass.cells().size() &&
+                hourglass.cells()[next_starved] == k)
+              hourglass.add(next_starved++, system);
             if (inertia != nullptr && inertia->consistent())
               {
                 accelerations.resize(nodes.size() * dim);
@@ -376,7 +363,7 @@ namespace Impoint
     bool constrained = false;
     for (const auto &method : methods)
       constrained |= method->is_active() && method->constrains();
-    if (tangent_wanted && constrained && solver.iterative())
+    if (tangent_wanted && constrained && solver.iterative(active))
       {
         // what the boundaries add to it comes next
         problem.has_moderate = true;
@@ -386,7 +373,7 @@ namespace Impoint
     full_rest = 0;
     assemble_boundaries(u, tangent_wanted);
     full_rest.compress(VectorOperation::add);
-    scale = std::max({scale, internal, full_rest.l2_norm(), external.l2_norm()});
+    scale = std::max({internal, full_rest.l2_norm(), external.l2_norm()});
     full_rest += before;
     full_rest -= external;
   }
@@ -507,30 +494,6 @@ namespace Impoint
 
 
 
-  /** Gives starved nodes their part of the typical stiffness. */
-  template <int dim>
-  void NonlinearSystem<dim>::hold_starved_nodes()
-  {
-    problem.regularisation.assign(active.n_nodes(), 0.);
-    if (n_starved == 0)
-      return;
-    double sum = 0;
-    for (unsigned int i = 0; i < active.n_nodes(); ++i)
-      for (std::size_t q = problem.pattern.row_start[i];
-           q < problem.pattern.row_start[i + 1];
-           ++q)
-        if (problem.pattern.columns[q] == i)
-          sum += problem.matrix.values[q * dim * dim];
-    const double typical =
-      Utilities::MPI::sum(sum, active.basis().grid().communicator()) /
-      active.scalars()->size();
-    for (unsigned int i = 0; i < active.n_nodes(); ++i)
-      if (starved[i])
-        problem.regularisation[i] = starved_stiffness * typical;
-  }
-
-
-
   template <int dim>
   void NonlinearSystem<dim>::correct(const bool first, Vector &delta)
   {
@@ -587,7 +550,6 @@ namespace Impoint
     if (problem.has_moderate)
       eliminate(problem.moderate);
 
-    hold_starved_nodes();
     if (new_problem)
       solver.new_pattern(active, problem);
     solver.new_matrix(problem);

@@ -23,7 +23,7 @@ namespace Impoint
     std::size_t projections       = 0; // of mass and momentum
     std::size_t visited_cells     = 0; // in the last step
     std::size_t visited_nodes     = 0; // in the last step
-    std::size_t starved_nodes     = 0; // held up by the regularisation, last step
+    std::size_t starved_cells     = 0; // with too few points, in the last step
   };
 
   /** Wall-clock seconds of a run's phases, as printed in summary.json. */

@@ -40,6 +40,8 @@ namespace Impoint
     double until = std::numeric_limits<double>::max(); // [s]
 
   private:
+    void declare_object(ParameterFile &file);
+    void declare_field(ParameterFile &file);
     void check_unused(const ParameterFile &file) const;
     void check_members(const ParameterFile &file) const;
     void check_places(const ParameterFile &file, const unsigned int dim) const;

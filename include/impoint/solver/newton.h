@@ -17,7 +17,7 @@ namespace Impoint
 
     unsigned int max_iterations      = 25;
     double       tolerance           = 1e-10;
-    double       increment_tolerance = 1e-8;
+    double       increment_tolerance = 1e-5;
     bool         line_search         = true;
   };
 

@@ -7,6 +7,7 @@
 #include <impoint/solver/gathered_solver.h>
 #include <impoint/solver/inertia.h>
 #include <impoint/terms/empty_cells.h>
+#include <impoint/terms/hourglass.h>
 #include <impoint/terms/term.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -42,8 +43,8 @@ namespace Impoint
     /** After the set of active cells changed. */
     void new_active_set();
 
-    /** After points changed their cells: which nodes are starved. */
-    void find_starved_nodes();
+    /** After points changed their cells: which cells have too few of them. */
+    void find_starved_cells();
 
     /** Prepares a step. @p external are the loads that do not depend on its
      * displacements. @p inertia may be null. */
@@ -102,8 +103,6 @@ namespace Impoint
 
     std::string solver_description() const { return solver.description(); }
 
-    std::size_t n_starved_nodes() const { return n_starved; }
-
   private:
     enum class Part
     {
@@ -118,7 +117,6 @@ namespace Impoint
     void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
     void scatter_residual(const unsigned int k);
     void eliminate(BlockMatrix<dim> &matrix) const;
-    void hold_starved_nodes();
     double force_scale() const;
 
     const ActiveNodes<dim> &            active;
@@ -128,6 +126,7 @@ namespace Impoint
     Counters &                          counters;
     Seconds &                           seconds;
     EmptyCells<dim>                     empty_cells;
+    Hourglass<dim>                      hourglass;
     std::vector<std::unique_ptr<Term<dim>>> terms;
     std::vector<Enforcement::HeldNode<dim>> held;
 
@@ -137,8 +136,6 @@ namespace Impoint
     Vector              external, rest, full_rest;
     const Inertia<dim> *inertia = nullptr;
     double              scale   = 0; // forces that balance [N]
-    std::size_t         n_starved = 0;
-    std::vector<char>   starved; // per active node
 
     // of the cell in work
     std::vector<double> cell_u, cell_residual, cell_matrix;

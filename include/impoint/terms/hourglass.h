@@ -1,0 +1,44 @@
+#ifndef impoint_terms_hourglass_h
+#define impoint_terms_hourglass_h
+
+#include <impoint/grid/active_nodes.h>
+#include <impoint/terms/term.h>
+
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * Stiffness against the modes that a cell's points cannot see if they are too
+   * few. One point in a quadrilateral is a pendulum: it turns about its
+   * neighbours at no cost, and its weight has work to do on that.
+   *
+   * The energy is factor E/2 int |grad u - grad u(centre)|^2 over the whole
+   * cell: nothing for linear fields, so it keeps the order of the linear
+   * functions and leaves no force on rigid bodies.
+   */
+  template <int dim>
+  class Hourglass
+  {
+  public:
+    /** @p young: Young's modulus of the stiffest material [Pa]. */
+    Hourglass(const ActiveNodes<dim> &active, const double young);
+
+    /** @p starved: the places of the cells with too few points among the
+     * active ones, increasing. */
+    void reinit(const std::vector<unsigned int> &starved);
+
+    /** Adds the i-th of the starved cells. */
+    void add(const unsigned int i, CellSystem &system) const;
+
+    const std::vector<unsigned int> &cells() const { return starved_cells; }
+
+  private:
+    const ActiveNodes<dim> &         active;
+    double                           young;
+    std::vector<unsigned int>        starved_cells;
+    std::vector<std::vector<double>> matrices; // n x n, the same for components
+  };
+} // namespace Impoint
+
+#endif
