@@ -110,16 +110,26 @@ namespace Impoint
     if (bodies.empty())
       throw file.error("Bodies/Names",
                        "the scene has no body",
-                       "name one, e.g. Names = block, and describe it in a "
-                       "section of that name");
+                       "Name one, e.g. Names = block, and describe it in a "
+                       "section of that name.");
     for (const auto &body : bodies)
       {
         body.check(file, dim);
+        for (const std::string entry : {"Initial velocity",
+                                        "Initial acceleration"})
+          if (file.is_set(body.section + "/" + entry) &&
+              (!time.is_dynamic() || (entry == "Initial acceleration" &&
+                                      time.initial != "expression")))
+            throw file.error(body.section + "/" + entry,
+                             "'" + entry + "' is set though section 'Time' has "
+                               "no use for it",
+                             "Remove it, or set Kind = dynamic (and Initial "
+                             "acceleration = expression) in section 'Time'.");
         if (!(body.density > 0))
           throw file.error(body.section + "/Density",
                            "the density of body '" + body.name + "' is " +
                              file.value(body.section + "/Density"),
-                           "set the mass per volume in kg/m3, above 0");
+                           "Set the mass per volume in kg/m3, above 0.");
       }
     for (unsigned int i = 0; i < boundaries.size(); ++i)
       {
@@ -143,8 +153,8 @@ namespace Impoint
     if (!held)
       throw file.error("Boundaries/Names",
                        "nothing holds the bodies of a quasi-static scene",
-                       "add a boundary that is fixed, a roller or slip, or set "
-                       "Kind = dynamic in section 'Time'");
+                       "Add a boundary that is fixed, a roller or slip, or set "
+                       "Kind = dynamic in section 'Time'.");
   }
 
   template struct Scene<2>;

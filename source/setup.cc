@@ -188,9 +188,9 @@ namespace Impoint
       throw file.error(parameters.section + "/Flip normal",
                        "the normals of boundary '" + parameters.name +
                          "' point into the material",
-                       std::string("set Flip normal = ") +
+                       std::string("Set Flip normal = ") +
                          (parameters.flip_normal ? "false" : "true") +
-                         ", or list its corners in the opposite order");
+                         ", or list its corners in the opposite order.");
     return judged > 0;
   }
 

@@ -25,7 +25,8 @@ namespace Impoint
                                              options.output_folder,
              options.overwrite,
              comm,
-             file.place("Output/Folder"))
+             options.output_folder.empty() ? file.place("Output/Folder") :
+                                             "option --output")
     , terminal(scene.output.verbosity, comm)
     , grid(file, scene.grid, comm)
     , basis(grid)
@@ -61,6 +62,10 @@ namespace Impoint
     for (const auto &measurement : scene.measurements)
       measurements.push_back(Measurements::create<dim>(file, measurement));
     boundary_places.resize(methods.size());
+    // Finds probes without material, before anything is written.
+    const auto state = this->state();
+    for (const auto &measurement : measurements)
+      measurement->start(state);
     seconds.setup = std::chrono::duration<double>(
                       std::chrono::steady_clock::now() - start_of_run)
                       .count();
@@ -94,9 +99,6 @@ namespace Impoint
     file.print_used(parameters);
     folder.write("parameters.prm", parameters.str());
 
-    const auto state = this->state();
-    for (const auto &measurement : measurements)
-      measurement->start(state);
     activate(0., scene.time.step);
     fill_record();
     terminal.header(run_record);

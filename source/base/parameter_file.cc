@@ -73,7 +73,7 @@ namespace Impoint
 
   std::string ParameterFile::value(const std::string &path) const
   {
-    return is_set(path) ? raw(path, "") :
+    return is_assigned(path) ? raw(path, "") :
                           prm.get(Words::split(Words::parent(path), '/'),
                                   Words::last_part(path));
   }
@@ -131,8 +131,11 @@ namespace Impoint
     for (const auto &path : assignments.order)
       known.require_entry(path, place(path));
     for (const auto &entry : declared)
-      if (is_set(entry.path))
-        set(entry);
+      {
+        defaults[entry.path] = entry.default_value;
+        if (is_assigned(entry.path))
+          set(entry);
+      }
   }
 
 
@@ -162,9 +165,18 @@ namespace Impoint
 
 
 
-  bool ParameterFile::is_set(const std::string &path) const
+  bool ParameterFile::is_assigned(const std::string &path) const
   {
     return assignments.entries.find(path) != assignments.entries.end();
+  }
+
+
+
+  bool ParameterFile::is_set(const std::string &path) const
+  {
+    const auto default_value = defaults.find(path);
+    return is_assigned(path) && (default_value == defaults.end() ||
+                                 raw(path, "") != default_value->second);
   }
 
 
@@ -272,7 +284,7 @@ namespace Impoint
         // a template may be used from another folder, where defaults mean
         // another place but what the user wrote must not
         const bool made_absolute =
-          is_path && (is_set(entry.path) || !as_template);
+          is_path && (is_assigned(entry.path) || !as_template);
         if (as_template)
           out << indent() << "# " << on_one_line(entry.documentation) << " ["
               << Words::allowed(entry.pattern) << "; default '"

@@ -111,51 +111,64 @@ namespace Impoint
     if (constraint == "roller" && !conforming)
       clash("Constraint",
             "a nonconforming boundary cannot be a 'roller'",
-            "use 'slip', which holds the component along the normal");
+            "Use 'slip', which holds the component along the normal.");
     if (constraint == "roller" && components.empty())
       clash("Components",
             "a roller holds no component",
-            "set Components = x (or y, z)");
+            "Set Components = x (or y, z).");
     if (constraint == "traction" && conforming)
       clash("Constraint",
             "a traction acts on nonconforming boundaries only",
-            "give the boundary a polyline or surface mesh along the grid's "
-            "boundary instead of a boundary id");
-    if (constraint != "roller" && !components.empty())
-      clash("Components",
-            "'Components' is set though the constraint is '" + constraint + "'",
-            "set Constraint = roller, or remove the entry");
-    if (constraint != "traction" && file.is_set(section + "/Traction"))
-      clash("Traction",
-            "'Traction' is set though the constraint is '" + constraint + "'",
-            "set Constraint = traction, or remove the entry");
-    if (constraint == "traction" && file.is_set(section + "/Value"))
-      clash("Value",
-            "'Value' is set though the constraint is 'traction'",
-            "a boundary prescribes either its displacement or its load: remove "
-            "one of the two");
-    if (conforming && file.is_set(section + "/Enforcement"))
-      clash("Enforcement",
-            "a conforming boundary has no enforcement method",
-            "remove the entry, or set Kind = nonconforming");
+            "Give the boundary a polyline or surface mesh along the grid's "
+            "boundary instead of a boundary id.");
+    check_unused(file, conforming);
     if (until <= from)
       clash("Active until",
             "the boundary ends before it begins",
-            "set 'Active until' later than 'Active from'");
+            "Set 'Active until' later than 'Active from'.");
     if (!rotation_centre.empty() && rotation_centre.size() != dim)
       clash("Rotation centre",
             "the centre has " + std::to_string(rotation_centre.size()) +
               " coordinates in " + std::to_string(dim) + "D",
-            "give " + std::to_string(dim) + " numbers");
+            "Give " + std::to_string(dim) + " numbers.");
     if (dim == 3 && file.is_set(section + "/Rotation angle") &&
         rotation_axis.size() != 3)
       clash("Rotation axis",
             "a rotation in 3D needs an axis",
-            "give its direction, e.g. Rotation axis = 0, 0, 1");
-    if (conforming && file.is_set(section + "/Rotation angle"))
-      clash("Rotation angle",
-            "a conforming boundary cannot rotate: the grid is fixed",
-            "use a nonconforming boundary");
+            "Give its direction, e.g. Rotation axis = 0, 0, 1.");
+  }
+
+
+
+  /** Refuses entries that the boundary, as it is, would not look at. */
+  void ConditionParameters::check_unused(const ParameterFile &file,
+                                         const bool           conforming) const
+  {
+    const bool        traction = constraint == "traction";
+    const bool        turns    = file.is_set(section + "/Rotation angle");
+    const std::string kind     = conforming ? "the boundary is conforming" :
+                                              "the constraint is '" + constraint + "'";
+    const auto        refuse   = [&](const bool                      unused,
+                            const std::vector<std::string> &entries,
+                            const std::string &             reason) {
+      for (const std::string &entry : entries)
+        if (unused && file.is_set(section + "/" + entry))
+          throw file.error(section + "/" + entry,
+                           "'" + entry + "' is set though " + reason,
+                           "Remove the entry: it would have no effect.");
+    };
+    refuse(constraint != "roller", {"Components"}, kind);
+    refuse(!traction, {"Traction"}, kind);
+    refuse(traction, {"Value", "Rotation angle"}, kind);
+    refuse(conforming || traction,
+           {"Enforcement", "Penalty factor", "Penalty unit", "Small-cut rule"},
+           kind);
+    refuse(constraint != "slip" || conforming, {"Normals"}, kind);
+    refuse(conforming, {"Moves", "Rotation angle"}, kind);
+    refuse(!turns,
+           {"Rotation centre", "Rotation axis"},
+           "'Rotation angle' is not");
+    refuse(!file.is_set(section + "/Value"), {"Value is"}, "'Value' is not");
   }
 
 

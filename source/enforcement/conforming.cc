@@ -30,15 +30,15 @@ namespace Impoint
       if (dim == 2 && parameters.components.find('z') != std::string::npos)
         throw file.error(parameters.section + "/Components",
                          "component z does not exist in 2D",
-                         "use x, y, or both");
+                         "Use x, y, or both.");
       const unsigned int n_nodes = boundary.nodes.size();
       if (Utilities::MPI::max(n_nodes, basis.grid().communicator()) == 0)
         throw file.error(parameters.section + "/Boundary id",
                          "the grid's boundary has no part with id " +
                            std::to_string(boundary_id),
-                         "use an id that the grid's generator or file gives: "
-                         "see the grid in ParaView, or 'Colorize' of the "
-                         "generator's arguments");
+                         "Use an id that the grid's generator or file gives; "
+                         "rectangles and boxes have 0 to 2 dim - 1 (left, "
+                         "right, bottom, top, back, front).");
       boundaries.push_back(std::move(boundary));
     }
 

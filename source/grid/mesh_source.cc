@@ -3,6 +3,8 @@
 #include <impoint/grid/mesh.h>
 #include <impoint/grid/mesh_source.h>
 
+#include <cstdlib>
+
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 
@@ -83,11 +85,30 @@ namespace Impoint
 
 
 
+    /** deal.II reads a negative number of cells as a huge one. */
+    void check_cell_numbers(const ParameterFile & file,
+                            const MeshParameters &parameters)
+    {
+      if (parameters.generator.rfind("subdivided_hyper_", 0) != 0)
+        return;
+      for (const std::string &number :
+           Words::split(Words::split(parameters.arguments, ':').front(), ','))
+        if (std::atof(number.c_str()) < 1)
+          throw file.error(parameters.section + "/Arguments",
+                           "'" + parameters.arguments +
+                             "' has a number of cells below 1",
+                           "Give numbers of cells of at least 1.");
+    }
+
+
+
     template <int dim, int spacedim>
     void call_generator(const ParameterFile          &file,
                         const MeshParameters         &parameters,
                         Triangulation<dim, spacedim> &mesh)
     {
+      check_cell_numbers(file, parameters);
+
       // Most generators end with a flag to number the sides of the boundary,
       // which everybody wants and nobody should have to write.
       std::string reason;

@@ -189,16 +189,23 @@ namespace Impoint
 
 
 
+  // The parameters of a run, written down to repeat it, set all entries.
   void MeasurementParameters::check_unused(const ParameterFile &file) const
   {
+    ParameterFile         untouched;
+    MeasurementParameters defaults;
+    defaults.declare(untouched, name);
     for (const auto &[other, entries] : used_entries)
       for (const auto &entry : entries)
-        if (file.is_set(section + "/" + entry) &&
-            !is_one_of(entry, used_entries.at(quantity)))
-          throw file.error(section + "/" + entry,
-                           "'" + entry + "' means nothing to the quantity '" +
-                             quantity + "'",
-                           "Take the entry away, or set another 'Quantity'.");
+        {
+          const std::string path = section + "/" + entry;
+          if (!is_one_of(entry, used_entries.at(quantity)) &&
+              file.value(path) != untouched.value(path))
+            throw file.error(path,
+                             "'" + entry + "' means nothing to the quantity '" +
+                               quantity + "'",
+                             "Take the entry away, or set another 'Quantity'.");
+        }
   }
 
 

@@ -61,10 +61,11 @@ namespace Impoint
     , is_terminal(&out == &std::cout && isatty(STDOUT_FILENO))
     , start(std::chrono::steady_clock::now())
   {
-    Assert(verbosity == "silent" || verbosity == "normal" ||
-             verbosity == "talkative",
+    Assert(verbosity == "silent" || verbosity == "results" ||
+             verbosity == "normal" || verbosity == "talkative",
            ExcMessage("Unknown verbosity " + verbosity));
-    normal    = on_root && verbosity != "silent";
+    results   = on_root && verbosity != "silent";
+    normal    = results && verbosity != "results";
     talkative = on_root && verbosity == "talkative";
   }
 
@@ -251,11 +252,14 @@ namespace Impoint
 
   void Terminal::finish(const RunRecord &record, const std::string &folder)
   {
-    if (!normal)
+    if (!results)
       return;
     // the full bar stays to be seen
-    out << (bar_is_shown ? "\n\n" : "\n") << results_table(record.results);
+    out << (bar_is_shown ? "\n\n" : normal ? "\n" : "")
+        << results_table(record.results);
     bar_is_shown = false;
+    if (!normal)
+      return;
     if (!record.results.empty())
       out << '\n';
     if (talkative)

@@ -55,7 +55,7 @@ namespace Impoint
                        "the step of " + file.value("Time/Step") +
                          " s is longer than the run of " +
                          file.value("Time/End time") + " s",
-                       "set Step to at most 'End time'");
+                       "Set Step to at most 'End time'.");
     if (!is_dynamic())
       for (const std::string entry : {"Newmark beta",
                                       "Newmark gamma",
@@ -64,12 +64,12 @@ namespace Impoint
         if (file.is_set("Time/" + entry))
           throw file.error("Time/" + entry,
                            "'" + entry + "' is set in a quasi-static scene",
-                           "set Kind = dynamic, or remove the entry");
+                           "Set Kind = dynamic, or remove the entry.");
     if (beta < 0.25 * (0.5 + gamma) * (0.5 + gamma) - 1e-12)
       throw file.error("Time/Newmark beta",
                        "Newmark's method is not stable with beta = " +
                          file.value("Time/Newmark beta"),
-                       "set beta to at least (1/2 + gamma)^2 / 4");
+                       "Set beta to at least (1/2 + gamma)^2 / 4.");
   }
 
 

@@ -56,7 +56,6 @@ namespace Impoint
          ++iteration)
       {
         ++counters.newton_iterations;
-        if (getenv("IMP_DBG")) fprintf(stderr, "it %u r %.3e\n", iteration, history.back());
         system.correct(iteration == 0, delta);
         if (system.is_linear())
           {

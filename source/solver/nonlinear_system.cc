@@ -211,13 +211,16 @@ namespace Impoint
 
   template <int dim>
   void NonlinearSystem<dim>::assemble_material(const Vector &u,
-                                               const bool    tangent_wanted)
+                                               const bool    tangent_wanted,
+                                               const Part    part)
   {
     const ConsistentMass<dim> consistent_mass(points);
     std::vector<double>       accelerations;
     CellSystem                system;
     unsigned int              next_starved = 0;
-    for (unsigned int k = 0; k < active.n_cells(); ++k)
+    for (unsigned int k = part == Part::all ? 0 : active.n_material_cells();
+         k < active.n_cells();
+         ++k)
       {
         const auto nodes = active.nodes(k);
         gather(k, u, cell_u);
@@ -340,21 +343,20 @@ namespace Impoint
         problem.has_moderate = false;
       }
     std::string failure;
-    if (part == Part::all)
-      try
-        {
-          assemble_material(u, tangent_wanted);
-        }
-      catch (const StepFailed &step_failure)
-        {
-          failure = step_failure.what();
-        }
+    try
+      {
+        assemble_material(u, tangent_wanted, part);
+      }
+    catch (const StepFailed &step_failure)
+      {
+        failure = step_failure.what();
+      }
     for (const auto &message :
          Utilities::MPI::all_gather(active.basis().grid().communicator(), failure))
       if (!message.empty())
         throw StepFailed(message);
 
-    if (inertia != nullptr && !inertia->consistent())
+    if (inertia != nullptr && (part != Part::all || !inertia->consistent()))
       add_inertia(u, tangent_wanted);
     full_rest.compress(VectorOperation::add);
     const double internal = full_rest.l2_norm();
@@ -607,7 +609,12 @@ namespace Impoint
   {
     Vector zero(active.unknowns()), w(active.unknowns());
     zero.update_ghost_values();
-    evaluate(zero, false); // forces at rest, initial stress included
+    // Forces at rest, initial stress included; M a(0) of Newmark's relation
+    // holds the velocities instead.
+    const Inertia<dim> *step_inertia = inertia;
+    inertia                          = nullptr;
+    evaluate(zero, false);
+    inertia = step_inertia;
     const Vector forces(full_rest);
     assemble(zero, true, Part::boundaries);
     full_rest = forces;

@@ -8,6 +8,7 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <iosfwd>
+#include <map>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -80,7 +81,8 @@ namespace Impoint
      */
     void apply();
 
-    /** Whether the user set @p path. */
+    /** Whether the user set @p path to something else than its default: a
+     * scene that writes all defaults down is the same scene. */
     bool is_set(const std::string &path) const;
 
     /** The error to throw for the entry @p path. */
@@ -118,12 +120,14 @@ namespace Impoint
     std::vector<Entry> entries() const;
 
     void set(const Entry &entry);
+    bool is_assigned(const std::string &path) const;
     void print(std::ostream &out, const bool as_template) const;
 
     std::string              scene_file;
     EntryHandler             prm;
     Assignments              assignments;
     std::vector<std::string> path_entries;
+    std::map<std::string, std::string> defaults; // known after apply()
   };
 
 

@@ -44,6 +44,9 @@ namespace Impoint
     std::vector<double> rotation_centre, rotation_axis;
     double              from  = std::numeric_limits<double>::lowest();
     double              until = std::numeric_limits<double>::max();
+
+  private:
+    void check_unused(const ParameterFile &file, const bool conforming) const;
   };
 
   /**

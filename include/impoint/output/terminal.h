@@ -30,7 +30,7 @@ namespace Impoint
    * What the user reads while the program runs. Rank 0 alone prints; no member
    * is collective.
    *
-   * "silent" prints failures only; "normal" a header, a line a step if they
+   * "silent" prints failures only; "results" the table of results; "normal" a header, a line a step if they
    * are few, else a progress bar (on a terminal) or every 5 % a line (in a
    * file), and the results; "talkative" each step, details, and where the time
    * went.
@@ -84,7 +84,8 @@ namespace Impoint
     void print_phases(const RunRecord &record);
 
     std::ostream &out, &errors;
-    bool          normal = false, talkative = false; // false but on rank 0
+    // false but on rank 0
+    bool          results = false, normal = false, talkative = false;
     bool          on_root;
     bool          is_terminal;
     bool          bar_is_shown  = false;

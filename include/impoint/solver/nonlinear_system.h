@@ -107,11 +107,13 @@ namespace Impoint
     enum class Part
     {
       all,
-      boundaries // and inertia: no stiffness of the material
+      boundaries // with empty cells and lumped inertia: no material
     };
 
     void assemble(const Vector &u, const bool tangent_wanted, const Part part);
-    void assemble_material(const Vector &u, const bool tangent_wanted);
+    void assemble_material(const Vector &u,
+                           const bool    tangent_wanted,
+                           const Part    part);
     void assemble_boundaries(const Vector &u, const bool tangent_wanted);
     void add_inertia(const Vector &u, const bool tangent_wanted);
     void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;

@@ -1,0 +1,124 @@
+"""Each mistake gives one message with its three parts, exit status 1, no files.
+
+Also: a run that cannot go on ends with status 2 and keeps what it has, and two
+ranks give one message, too.
+"""
+
+import json
+import re
+import subprocess
+from pathlib import Path
+
+import driver
+from bad_inputs_cases import COMMANDS, SCENE, SCENES
+from driver import expect
+
+GOOD = Path(__file__).with_name("bad_inputs.prm").read_text()
+RESULTS = Path("results")
+
+
+def impoint(arguments, ranks=1):
+    """As driver.run(), but a program that hangs is a failure."""
+    command = [driver.PROGRAM, *arguments]
+    if ranks > 1:
+        command = [driver.MPIEXEC, "-np", str(ranks), *command]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60)
+
+
+def remove_results():
+    subprocess.run(["rm", "-rf", str(RESULTS)], check=True)
+
+
+def complaint(arguments, title, ranks=1):
+    """The lines of the one message that these arguments must give."""
+    files = sorted(Path().rglob("*"))
+    process = impoint(arguments, ranks)
+    report = f"{title}: {process.returncode}\n{process.stdout}{process.stderr}"
+    expect(process.returncode == 1, "status is not 1 for " + report)
+    expect(process.stdout.count("\n") <= (0 if ranks == 1 else 12),
+           "more than the message is printed for " + report)
+    lines = process.stderr.splitlines()
+    starts = [i for i, line in enumerate(lines) if line.startswith("Error: ")]
+    expect(len(starts) == 1, "not one message for " + report)
+    lines = lines[starts[0]:] if ranks > 1 else lines
+    expect(len(lines) == 3 or ranks > 1, "message isn't 3 lines for " + report)
+    expect(lines[1].startswith("  in ") and lines[2].startswith("  "),
+           "message lacks place or advice for " + report)
+    expect("internal error" not in report, "internal error for " + report)
+    expect(sorted(Path().rglob("*")) == files, "files changed by " + report)
+    return lines[:3]
+
+
+def check_scene(old, new, says, at=None):
+    expect(GOOD.count(old) == 1 or old.startswith("set Names"),
+           f"'{old}' is no unique text")
+    text = GOOD.replace(old, new, 1)
+    Path(SCENE).write_text(text)
+    title = f"'{old}' -> '{new}'"
+    message = complaint([SCENE], title)
+    expect(re.search(says, " ".join(message), re.IGNORECASE),
+           f"{title}: '{says}' is not in\n" + "\n".join(message))
+    place = new.split("\n")[0] if at is None else at
+    if place:
+        expect(place in text, f"'{place}' is not in the scene")
+        line = text[:text.index(place)].count("\n") + 1
+        expect(message[1].endswith(f"{SCENE}:{line}"),
+               f"{title}: place is not line {line}:\n" + "\n".join(message))
+
+
+def check_command(arguments, says):
+    message = complaint(arguments, str(arguments))
+    expect(re.search(says, " ".join(message)),
+           f"{arguments}: '{says}' is not in\n" + "\n".join(message))
+
+
+def check_two_ranks():
+    for setting in ("Newton/Tolerance = 1", "Bodies/bar/Mesh/Shift = 9, 0",
+                    "Boundaries/clamp/Polyline = 0 0; 0 0.5",
+                    "Measurements/tip/Point = 2, 7"):
+        complaint([SCENE, "--set", setting], setting, ranks=2)
+    print("on two ranks, one message: yes")
+
+
+def check_failing_run(ranks):
+    """A load a million times the scene's: the bar leaves the grid."""
+    remove_results()
+    process = impoint([SCENE, "--set", "Bodies/bar/Material/Model = Hencky",
+                       "--set", "Bodies/bar/Body force = 0; -9810 * t",
+                       "--set", "Time/Step = 0.25"], ranks)
+    expect(process.returncode == 2, f"status is not 2:\n{process.stdout}"
+           f"{process.stderr}")
+    messages = [line for line in process.stderr.splitlines()
+                if line.startswith("Error: ")]
+    expect(len(messages) == 1 and
+           re.search(r"step \d+ at time \S+ s.*: ", messages[0]),
+           "no step and reason in " + process.stderr)
+    summary = json.loads((RESULTS / "summary.json").read_text())
+    expect(summary["status"] == "failed", "status isn't failed")
+    expect(summary["message"] in messages[0], summary["message"])
+    rows = (RESULTS / "history.csv").read_text().splitlines()
+    expect(len(rows) == summary["counts"]["steps"] + 1, "history lacks rows")
+    pictures = sorted((RESULTS / "vtu").glob("points-*.vtu"))
+    expect(len(pictures) == summary["counts"]["steps"] + 1,
+           "the last good state is not pictured")
+    print(f"run that cannot go on, {ranks} ranks: status 2, state kept: yes")
+
+
+def main():
+    remove_results()
+    Path("unreadable.msh").write_text("no mesh\n")
+    Path("full").mkdir(exist_ok=True)
+    Path("full/summary.json").write_text("{}\n")
+    for case in SCENES:
+        check_scene(*case)
+    print(f"{len(SCENES)} wrong scenes: one message each, nothing written")
+    Path(SCENE).write_text(GOOD)
+    for case in COMMANDS:
+        check_command(*case)
+    print(f"{len(COMMANDS)} wrong commands: one message each, nothing written")
+    check_two_ranks()
+    check_failing_run(ranks=1)
+    check_failing_run(ranks=2)
+
+
+main()

@@ -1,0 +1,91 @@
+"""One, two and three ranks give the same results, to 1e-9 of their size."""
+
+import csv
+import re
+from pathlib import Path
+
+from driver import expect, run_scene
+
+HERE = Path(__file__).parent
+TOLERANCE = 1e-9
+
+COARSE = ["Grid/Arguments = 19, 7 : 0, 0 : 9.5, 3.5", "Grid/Shift = -0.2, -1.8",
+          "Bodies/beam/Mesh/Arguments = 32, 4 : 0, 0 : 8, 1"]
+SCENES = {
+    "quads": ("quickstart.prm", COARSE),
+    "triangles": ("quickstart.prm", [*COARSE, "Grid/Cells = triangles"]),
+    "hanging nodes": ("quickstart.prm",
+                      [*COARSE, "Grid/Refine where = 2 - x + y"]),
+    "penalty, iterative": ("quickstart.prm",
+                           [*COARSE, "Boundaries/clamp/Enforcement = penalty",
+                            "Linear solver/Kind = iterative"]),
+    "hexes": (HERE / "ranks_bar_3d.prm", []),
+    "tets": (HERE / "ranks_bar_3d.prm", ["Grid/Cells = tetrahedra"]),
+    "falling block": (HERE / "ranks_falling_block.prm", []),
+}
+# Of the solver's way, not of its end.
+LEFT_OUT = {"Newton iterations", "linear iterations", "residual"}
+
+
+def end_of_run(folder, summary):
+    """All results and the last row of history.csv, by their names."""
+    with open(folder / "history.csv") as file:
+        row = list(csv.DictReader(file))[-1]
+    values = {"row " + name: float(value) for name, value in row.items()
+              if name not in LEFT_OUT}
+    for name, result in summary["results"].items():
+        values["result " + name] = result["value"]
+    for name in ("steps", "halved steps", "points", "boundary particles",
+                 "unknowns", "sorts", "visited cells", "visited nodes"):
+        values["count " + name] = summary["counts"][name]
+    return values
+
+
+def vector_of(name):
+    """Components are compared with the size of their vector."""
+    return re.sub(r"[ _][xyz]$", "", name)
+
+
+def largest_difference(values, others):
+    expect(values.keys() == others.keys(), "the names of results differ")
+    sizes = {}
+    for name, value in values.items():
+        vector = vector_of(name)
+        sizes[vector] = max(abs(value), sizes.get(vector, 0))
+    scaled = {name: abs(value - others[name]) / (sizes[vector_of(name)] or 1)
+              for name, value in values.items()}
+    name = max(scaled, key=scaled.get)
+    return name, scaled[name]
+
+
+def points_of_ranks(picture):
+    """How many points each rank wrote into a picture."""
+    return re.findall(r'NumberOfPoints="(\d+)"',
+                      picture.read_text(errors="replace"))
+
+
+def check_crossing(folder):
+    pictures = sorted((folder / "vtu").glob("points-*.vtu"))
+    splits = {tuple(points_of_ranks(picture)) for picture in pictures}
+    expect(len(splits) > 1, f"no point changed its rank: {splits}")
+
+
+def main():
+    for title, (scene, settings) in SCENES.items():
+        ends = []
+        for n_ranks in (1, 2, 3):
+            folder = Path(f"{title}-{n_ranks}")
+            summary = run_scene(scene, folder, settings, n_ranks)
+            expect(summary["ranks"] == n_ranks, "not all ranks took part")
+            ends.append(end_of_run(folder, summary))
+            if n_ranks > 1 and title == "falling block":
+                check_crossing(folder)
+        for n_ranks in (2, 3):
+            name, difference = largest_difference(ends[0], ends[n_ranks - 1])
+            print(f"{title}, {n_ranks} ranks: {difference / TOLERANCE:.1e} of "
+                  f"what is allowed ({name})")
+            expect(difference <= TOLERANCE,
+                   f"{name}: {ends[0][name]!r} and {ends[n_ranks - 1][name]!r}")
+
+
+main()
