@@ -73,11 +73,12 @@ namespace Impoint
       }
 
     prm.enter_subsection("Boundaries");
-    prm.declare_entry("Names",
-                      "",
-                      Patterns::Anything(),
-                      "Names of the boundaries, separated by commas; each has a "
-                      "section of its name.");
+    prm.declare_entry(
+      "Names",
+      "",
+      Patterns::Anything(),
+      "Names of the boundaries, separated by commas; each has a "
+      "section of its name.");
     prm.leave_subsection();
     for (const std::string &name : file.names("Boundaries/Names"))
       {
@@ -90,11 +91,12 @@ namespace Impoint
     linear_solver.declare(file);
 
     prm.enter_subsection("Measurements");
-    prm.declare_entry("Names",
-                      "",
-                      Patterns::Anything(),
-                      "Names of what is measured, separated by commas; each has "
-                      "a section of its name.");
+    prm.declare_entry(
+      "Names",
+      "",
+      Patterns::Anything(),
+      "Names of what is measured, separated by commas; each has "
+      "a section of its name.");
     prm.leave_subsection();
     for (const std::string &name : file.names("Measurements/Names"))
       measurements.emplace_back().declare(file, name);
@@ -115,13 +117,14 @@ namespace Impoint
     for (const auto &body : bodies)
       {
         body.check(file, dim);
-        for (const std::string entry : {"Initial velocity",
-                                        "Initial acceleration"})
+        for (const std::string entry :
+             {"Initial velocity", "Initial acceleration"})
           if (file.is_set(body.section + "/" + entry) &&
               (!time.is_dynamic() || (entry == "Initial acceleration" &&
                                       time.initial != "expression")))
             throw file.error(body.section + "/" + entry,
-                             "'" + entry + "' is set though section 'Time' has "
+                             "'" + entry +
+                               "' is set though section 'Time' has "
                                "no use for it",
                              "Remove it, or set Kind = dynamic (and Initial "
                              "acceleration = expression) in section 'Time'.");

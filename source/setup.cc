@@ -24,8 +24,8 @@ namespace Impoint
 
   template <int dim>
   std::unique_ptr<MaterialPoints<dim>> place_bodies(const ParameterFile &file,
-                                                    const Scene<dim> &   scene,
-                                                    const Basis<dim> &   basis)
+                                                    const Scene<dim>    &scene,
+                                                    const Basis<dim>    &basis)
   {
     std::vector<std::shared_ptr<Materials::Material<dim>>> materials;
     std::vector<InitialState<dim>>                         initial;
@@ -41,9 +41,10 @@ namespace Impoint
         carried.initial_stress |= !initial.back().stress.is_zero();
       }
 
-    auto points = std::make_unique<MaterialPoints<dim>>(basis, carried, materials);
-    const auto &slots   = points->slots();
-    const auto  comm    = basis.grid().communicator();
+    auto points =
+      std::make_unique<MaterialPoints<dim>>(basis, carried, materials);
+    const auto &slots = points->slots();
+    const auto  comm  = basis.grid().communicator();
     std::vector<typename PointCloud<dim>::NewParticle> particles;
     std::size_t                                        first_number = 0;
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
@@ -68,10 +69,9 @@ namespace Impoint
             state[slots.body]   = b;
             for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
               {
-                const double stress =
-                  initial[b].stress.is_zero() ?
-                    0. :
-                    initial[b].stress.value(seed.x, 0., k);
+                const double stress     = initial[b].stress.is_zero() ?
+                                            0. :
+                                            initial[b].stress.value(seed.x, 0., k);
                 state[slots.stress + k] = stress;
                 if (carried.initial_stress)
                   state[slots.initial_stress + k] = stress;
@@ -100,8 +100,8 @@ namespace Impoint
   template <int dim>
   typename NonlinearSystem<dim>::Methods
   place_boundaries(const ParameterFile &file,
-                   const Scene<dim> &   scene,
-                   const Basis<dim> &   basis)
+                   const Scene<dim>    &scene,
+                   const Basis<dim>    &basis)
   {
     typename NonlinearSystem<dim>::Methods methods;
     // Areas are those of the thickness that the bodies have.
@@ -122,11 +122,11 @@ namespace Impoint
 
 
   template <int dim>
-  bool check_normals(const ParameterFile &         file,
-                     const BoundaryParameters &    parameters,
+  bool check_normals(const ParameterFile          &file,
+                     const BoundaryParameters     &parameters,
                      const BoundaryParticles<dim> &boundary,
-                     const MaterialPoints<dim> &   points,
-                     const BackgroundGrid<dim> &   grid)
+                     const MaterialPoints<dim>    &points,
+                     const BackgroundGrid<dim>    &grid)
   {
     std::vector<std::array<double, 2 * dim + 1>> own;
     for (unsigned int b = 0; b < boundary.n(); ++b)
@@ -134,8 +134,9 @@ namespace Impoint
         own.emplace_back();
         for (unsigned int d = 0; d < dim; ++d)
           {
-            own.back()[d]       = boundary.position(b)[d];
-            own.back()[dim + d] = boundary.vector(b, boundary.slots().normal)[d];
+            own.back()[d] = boundary.position(b)[d];
+            own.back()[dim + d] =
+              boundary.vector(b, boundary.slots().normal)[d];
           }
         own.back()[2 * dim] = boundary.area(b);
       }
@@ -147,7 +148,8 @@ namespace Impoint
       begin_of_cell[range.cell] = range.begin;
 
     double wrong = 0, judged = 0;
-    for (const auto &part : Utilities::MPI::all_gather(grid.communicator(), own))
+    for (const auto &part :
+         Utilities::MPI::all_gather(grid.communicator(), own))
       {
         // volume-weighted distance to the material on the outer side, and all
         std::vector<double> sides(2 * part.size() + 1, 0.);
@@ -166,7 +168,7 @@ namespace Impoint
             for (const unsigned int c : grid.cells_near(lower, upper))
               for (unsigned int k = 0; k < n_in_cell[c]; ++k)
                 {
-                  const unsigned int p = begin_of_cell[c] + k;
+                  const unsigned int   p    = begin_of_cell[c] + k;
                   const Tensor<1, dim> away = points.position(p) - x;
                   if (away.norm() > reach)
                     continue;

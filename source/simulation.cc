@@ -13,7 +13,7 @@
 namespace Impoint
 {
   template <int dim>
-  Simulation<dim>::Simulation(ParameterFile &   file,
+  Simulation<dim>::Simulation(ParameterFile    &file,
                               const Scene<dim> &scene,
                               const RunOptions &options,
                               const MPI_Comm    communicator)
@@ -55,8 +55,13 @@ namespace Impoint
                          scene.boundaries[i].name +
                          "': whether its normals point out of the material "
                          "cannot be checked.");
-    system = std::make_unique<NonlinearSystem<dim>>(
-      active, *points, methods, conforming, scene.linear_solver, counters, seconds);
+    system = std::make_unique<NonlinearSystem<dim>>(active,
+                                                    *points,
+                                                    methods,
+                                                    conforming,
+                                                    scene.linear_solver,
+                                                    counters,
+                                                    seconds);
     system->add_term(std::make_unique<InternalForce<dim>>(*points));
     newton = std::make_unique<Newton<dim>>(scene.newton, *system, counters);
     for (const auto &measurement : scene.measurements)
@@ -110,13 +115,8 @@ namespace Impoint
   template <int dim>
   Measurements::State<dim> Simulation<dim>::state() const
   {
-    return {*points,
-            methods,
-            active,
-            time,
-            last_step,
-            forces,
-            newton->residuals()};
+    return {
+      *points, methods, active, time, last_step, forces, newton->residuals()};
   }
 
 
@@ -173,7 +173,8 @@ namespace Impoint
         for (const auto &range : method->particles().ranges())
           boundary_cells.push_back(range.cell);
     std::sort(boundary_cells.begin(), boundary_cells.end());
-    boundary_cells.erase(std::unique(boundary_cells.begin(), boundary_cells.end()),
+    boundary_cells.erase(std::unique(boundary_cells.begin(),
+                                     boundary_cells.end()),
                          boundary_cells.end());
     bool changed = false;
     {
@@ -258,7 +259,7 @@ namespace Impoint
   typename Simulation<dim>::Vector
   Simulation<dim>::external_forces(const double at) const
   {
-    Vector forces(active.unknowns());
+    Vector             forces(active.unknowns());
     const unsigned int mass = points->slots().mass;
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
@@ -364,7 +365,7 @@ namespace Impoint
   template <int dim>
   void Simulation<dim>::update_points()
   {
-    const auto &                slots   = points->slots();
+    const auto                 &slots   = points->slots();
     const bool                  dynamic = scene.time.is_dynamic();
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
@@ -374,7 +375,7 @@ namespace Impoint
       {
         const auto         nodes = active.nodes(k);
         const unsigned int n     = nodes.size();
-        const auto &       range = points->ranges()[k];
+        const auto        &range = points->ranges()[k];
         system->gather(k, u, cell_u);
         if (dynamic)
           {
@@ -386,9 +387,9 @@ namespace Impoint
           }
         for (unsigned int p = range.begin; p < range.end; ++p)
           {
-            double *       state = points->data(p);
-            const double * N     = points->support(p);
-            const double * G     = N + n;
+            double        *state = points->data(p);
+            const double  *N     = points->support(p);
+            const double  *G     = N + n;
             Tensor<2, dim> grad_u;
             for (unsigned int a = 0; a < n; ++a)
               for (unsigned int i = 0; i < dim; ++i)
@@ -443,7 +444,8 @@ namespace Impoint
         }
       return moment;
     };
-    std::vector<Measurements::BoundaryForce<dim>> held(conforming.n_boundaries());
+    std::vector<Measurements::BoundaryForce<dim>> held(
+      conforming.n_boundaries());
     for (unsigned int i = 0; i < held.size(); ++i)
       held[i].name = conforming.name(i);
     for (const auto &node : system->held_nodes())
@@ -452,9 +454,12 @@ namespace Impoint
           Point<dim> x = basis.point(active.grid_node(node.node));
           for (unsigned int d = 0; d < dim; ++d)
             x[d] += u.local_element(node.node * dim + d);
-          const Tensor<1, dim> force = system->reaction(node);
-          held[node.boundary].force += force;
-          held[node.boundary].moment += moment_of(x, force);
+          for (unsigned int k = 0; k < node.n_held; ++k)
+            {
+              const Tensor<1, dim> force = system->reaction(node, k);
+              held[node.boundary[k]].force += force;
+              held[node.boundary[k]].moment += moment_of(x, force);
+            }
         }
 
     std::vector<Measurements::BoundaryForce<dim>> nonconforming(methods.size());
@@ -465,7 +470,7 @@ namespace Impoint
         nonconforming[m].name = particles.name();
         for (unsigned int r = 0; r < particles.ranges().size(); ++r)
           {
-            const auto &       range = particles.ranges()[r];
+            const auto        &range = particles.ranges()[r];
             const unsigned int k     = active.position(range.cell);
             if (k == BackgroundGrid<dim>::nowhere || !methods[m]->is_active())
               {
@@ -597,7 +602,8 @@ namespace Impoint
 
 
   template <int dim>
-  void Simulation<dim>::end(const std::string &status, const std::string &message)
+  void Simulation<dim>::end(const std::string &status,
+                            const std::string &message)
   {
     seconds.total = std::chrono::duration<double>(
                       std::chrono::steady_clock::now() - start_of_run)

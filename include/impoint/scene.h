@@ -23,7 +23,7 @@ namespace Impoint
 
     std::string  folder    = "output";
     std::string  verbosity = "normal"; // silent|results|normal|talkative
-    unsigned int every     = 1; // steps between pictures; 0: none
+    unsigned int every     = 1;        // steps between pictures; 0: none
   };
 
   /**
@@ -40,12 +40,12 @@ namespace Impoint
     /** Declares every entry of the scenes that @p file may be. */
     static void declare(ParameterFile &file);
 
-    std::string           title;
-    GridParameters        grid;
-    TimeParameters        time;
-    NewtonParameters      newton;
+    std::string            title;
+    GridParameters         grid;
+    TimeParameters         time;
+    NewtonParameters       newton;
     LinearSolverParameters linear_solver;
-    OutputParameters      output;
+    OutputParameters       output;
 
     // deque: the handler keeps addresses of members
     std::deque<BodyParameters>        bodies;

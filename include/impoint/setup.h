@@ -13,16 +13,16 @@ namespace Impoint
    * throws InputError. */
   template <int dim>
   std::unique_ptr<MaterialPoints<dim>> place_bodies(const ParameterFile &file,
-                                                    const Scene<dim> &   scene,
-                                                    const Basis<dim> &   basis);
+                                                    const Scene<dim>    &scene,
+                                                    const Basis<dim>    &basis);
 
   /** The nonconforming boundaries, in the order of the scene. Collective;
    * throws InputError. */
   template <int dim>
   typename NonlinearSystem<dim>::Methods
   place_boundaries(const ParameterFile &file,
-                   const Scene<dim> &   scene,
-                   const Basis<dim> &   basis);
+                   const Scene<dim>    &scene,
+                   const Basis<dim>    &basis);
 
   /**
    * Whether a boundary's normals point out of the material: throws InputError
@@ -30,11 +30,11 @@ namespace Impoint
    * Returns false if no material is near, so that nobody can say. Collective.
    */
   template <int dim>
-  bool check_normals(const ParameterFile &           file,
-                     const BoundaryParameters &      parameters,
-                     const BoundaryParticles<dim> &  boundary,
-                     const MaterialPoints<dim> &     points,
-                     const BackgroundGrid<dim> &     grid);
+  bool check_normals(const ParameterFile          &file,
+                     const BoundaryParameters     &parameters,
+                     const BoundaryParticles<dim> &boundary,
+                     const MaterialPoints<dim>    &points,
+                     const BackgroundGrid<dim>    &grid);
 } // namespace Impoint
 
 #endif

@@ -27,10 +27,10 @@ namespace Impoint
   public:
     /** Builds grid, particles and boundaries; computes and writes nothing.
      * Throws InputError for what only they reveal. */
-    Simulation(ParameterFile &    file,
-               const Scene<dim> & scene,
-               const RunOptions & options,
-               const MPI_Comm     communicator);
+    Simulation(ParameterFile    &file,
+               const Scene<dim> &scene,
+               const RunOptions &options,
+               const MPI_Comm    communicator);
 
     /** Runs to the end. Throws RunFailed where it cannot go on; the last good
      * state is on disk then. */
@@ -56,34 +56,34 @@ namespace Impoint
 
     Measurements::State<dim> state() const;
 
-    const std::chrono::steady_clock::time_point start_of_run;
-    MPI_Comm           comm;
-    ParameterFile &    file;
-    const Scene<dim> & scene;
-    Counters           counters;
-    Seconds            seconds;
-    OutputFolder       folder;
-    Terminal           terminal;
-    BackgroundGrid<dim> grid;
-    Basis<dim>          basis;
-    ActiveNodes<dim>    active;
-    std::vector<Expression<dim>>                   body_forces;
-    std::unique_ptr<MaterialPoints<dim>>           points;
-    Enforcement::Conforming<dim>                   conforming;
-    typename NonlinearSystem<dim>::Methods         methods;
-    Inertia<dim>                                   inertia;
-    std::unique_ptr<NonlinearSystem<dim>>          system;
-    std::unique_ptr<Newton<dim>>                   newton;
+    const std::chrono::steady_clock::time_point                  start_of_run;
+    MPI_Comm                                                     comm;
+    ParameterFile                                               &file;
+    const Scene<dim>                                            &scene;
+    Counters                                                     counters;
+    Seconds                                                      seconds;
+    OutputFolder                                                 folder;
+    Terminal                                                     terminal;
+    BackgroundGrid<dim>                                          grid;
+    Basis<dim>                                                   basis;
+    ActiveNodes<dim>                                             active;
+    std::vector<Expression<dim>>                                 body_forces;
+    std::unique_ptr<MaterialPoints<dim>>                         points;
+    Enforcement::Conforming<dim>                                 conforming;
+    typename NonlinearSystem<dim>::Methods                       methods;
+    Inertia<dim>                                                 inertia;
+    std::unique_ptr<NonlinearSystem<dim>>                        system;
+    std::unique_ptr<Newton<dim>>                                 newton;
     std::vector<std::unique_ptr<Measurements::Measurement<dim>>> measurements;
-    HistoryWriter                                  history;
-    Pictures<dim>                                  pictures;
+    HistoryWriter                                                history;
+    Pictures<dim>                                                pictures;
 
-    double                               time = 0, last_step = 0;
-    bool                                 points_changed_cells = true;
-    Vector                               u;
-    std::vector<std::vector<Point<dim>>> boundary_places; // per method
+    double                                        time = 0, last_step = 0;
+    bool                                          points_changed_cells = true;
+    Vector                                        u;
+    std::vector<std::vector<Point<dim>>>          boundary_places; // per method
     std::vector<Measurements::BoundaryForce<dim>> forces;
-    RunRecord                            run_record;
+    RunRecord                                     run_record;
   };
 } // namespace Impoint
 

@@ -74,8 +74,8 @@ namespace Impoint
   std::string ParameterFile::value(const std::string &path) const
   {
     return is_assigned(path) ? raw(path, "") :
-                          prm.get(Words::split(Words::parent(path), '/'),
-                                  Words::last_part(path));
+                               prm.get(Words::split(Words::parent(path), '/'),
+                                       Words::last_part(path));
   }
 
 

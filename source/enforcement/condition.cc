@@ -5,11 +5,11 @@
 
 namespace Impoint
 {
-  void ConditionParameters::declare(ParameterFile &    file,
+  void ConditionParameters::declare(ParameterFile     &file,
                                     const std::string &boundary_name)
   {
-    name                  = boundary_name;
-    section               = "Boundaries/" + name;
+    name      = boundary_name;
+    section   = "Boundaries/" + name;
     auto &prm = file.handler();
     prm.enter_subsection("Boundaries");
     prm.enter_subsection(name);
@@ -24,33 +24,37 @@ namespace Impoint
                       "Components that a roller holds: x, y, z, separated by "
                       "commas.",
                       Patterns::List(Patterns::Selection("x|y|z"), 0, 3));
-    prm.add_parameter("Enforcement",
-                      enforcement,
-                      "Method of a nonconforming boundary. penalty: on each "
-                      "particle's gap (P Eqs. 42-43); projected penalty: on the "
-                      "mean gap of each cell, which does not lock.",
-                      Patterns::Selection("penalty|projected penalty"));
+    prm.add_parameter(
+      "Enforcement",
+      enforcement,
+      "Method of a nonconforming boundary. penalty: on each "
+      "particle's gap (P Eqs. 42-43); projected penalty: on the "
+      "mean gap of each cell, which does not lock.",
+      Patterns::Selection("penalty|projected penalty"));
     prm.add_parameter("Penalty factor",
                       factor,
                       "Penalty factor beta, in the unit below.",
                       Patterns::Double(1e-300));
-    prm.add_parameter("Penalty unit",
-                      factor_unit,
-                      "E/h: beta is a multiple of Young's modulus over the cell "
-                      "size (largest of all bodies); Pa/m: beta is absolute.",
-                      Patterns::Selection("E/h|Pa/m"));
-    prm.add_parameter("Small-cut rule",
-                      small_cut_rule,
-                      "Raise small shape values to 0.01 in the penalty (P Eq. "
-                      "53). It breaks linear reproduction: only to reproduce the "
-                      "paper.",
-                      Patterns::Bool());
-    prm.add_parameter("Normals",
-                      normals,
-                      "Normals of a slip condition: each particle's own, or "
-                      "averaged at the nodes (P Eq. 54); automatic: nodal where "
-                      "the particles' normals differ, else particle.",
-                      Patterns::Selection("automatic|particle|nodal"));
+    prm.add_parameter(
+      "Penalty unit",
+      factor_unit,
+      "E/h: beta is a multiple of Young's modulus over the cell "
+      "size (largest of all bodies); Pa/m: beta is absolute.",
+      Patterns::Selection("E/h|Pa/m"));
+    prm.add_parameter(
+      "Small-cut rule",
+      small_cut_rule,
+      "Raise small shape values to 0.01 in the penalty (P Eq. "
+      "53). It breaks linear reproduction: only to reproduce the "
+      "paper.",
+      Patterns::Bool());
+    prm.add_parameter(
+      "Normals",
+      normals,
+      "Normals of a slip condition: each particle's own, or "
+      "averaged at the nodes (P Eq. 54); automatic: nodal where "
+      "the particles' normals differ, else particle.",
+      Patterns::Selection("automatic|particle|nodal"));
     prm.declare_entry("Value",
                       "",
                       Patterns::Anything(),
@@ -146,11 +150,12 @@ namespace Impoint
   {
     const bool        traction = constraint == "traction";
     const bool        turns    = file.is_set(section + "/Rotation angle");
-    const std::string kind     = conforming ? "the boundary is conforming" :
-                                              "the constraint is '" + constraint + "'";
+    const std::string kind     = conforming ?
+                                   "the boundary is conforming" :
+                                   "the constraint is '" + constraint + "'";
     const auto        refuse   = [&](const bool                      unused,
                             const std::vector<std::string> &entries,
-                            const std::string &             reason) {
+                            const std::string              &reason) {
       for (const std::string &entry : entries)
         if (unused && file.is_set(section + "/" + entry))
           throw file.error(section + "/" + entry,
@@ -174,7 +179,7 @@ namespace Impoint
 
 
   template <int dim>
-  PrescribedMotion<dim>::PrescribedMotion(const ParameterFile &      file,
+  PrescribedMotion<dim>::PrescribedMotion(const ParameterFile       &file,
                                           const ConditionParameters &parameters)
     : value(file, parameters.section + "/Value", dim)
     , angle(file, parameters.section + "/Rotation angle", 1)
@@ -206,11 +211,10 @@ namespace Impoint
 
 
   template <int dim>
-  Tensor<1, dim>
-  PrescribedMotion<dim>::increment(const Point<dim> &x,
-                                   const Point<dim> &first,
-                                   const double      start,
-                                   const double      end) const
+  Tensor<1, dim> PrescribedMotion<dim>::increment(const Point<dim> &x,
+                                                  const Point<dim> &first,
+                                                  const double      start,
+                                                  const double      end) const
   {
     Tensor<1, dim> result;
     if (is_velocity)

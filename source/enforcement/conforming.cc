@@ -1,6 +1,8 @@
 #include <impoint/base/parameter_file.h>
 #include <impoint/enforcement/conforming.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <map>
 
 namespace Impoint
@@ -15,10 +17,9 @@ namespace Impoint
 
 
     template <int dim>
-    void
-    Conforming<dim>::add_boundary(const ParameterFile &      file,
-                                  const ConditionParameters &parameters,
-                                  const types::boundary_id   boundary_id)
+    void Conforming<dim>::add_boundary(const ParameterFile       &file,
+                                       const ConditionParameters &parameters,
+                                       const types::boundary_id   boundary_id)
     {
       Boundary boundary{parameters,
                         PrescribedMotion<dim>(file, parameters),
@@ -44,79 +45,71 @@ namespace Impoint
 
 
 
+    template <int dim>
+    void HeldNode<dim>::hold(const Tensor<1, dim> &wanted,
+                             const double          amount,
+                             const unsigned int    boundary_number)
+    {
+      Tensor<1, dim> rest        = wanted / wanted.norm();
+      double         rest_amount = amount;
+      for (unsigned int k = 0; k < n_held; ++k)
+        {
+          const double part = rest * direction[k];
+          rest -= part * direction[k];
+          rest_amount -= part * value[k];
+        }
+      const double length = rest.norm();
+      if (n_held == dim || length < 1e-6)
+        return;
+      direction[n_held] = rest / length;
+      value[n_held]     = rest_amount / length;
+      boundary[n_held]  = boundary_number;
+      ++n_held;
+    }
+
+
+
+    template <int dim>
+    Tensor<2, dim> HeldNode<dim>::projector() const
+    {
+      Tensor<2, dim> result(unit_symmetric_tensor<dim>());
+      for (unsigned int k = 0; k < n_held; ++k)
+        result -= outer_product(direction[k], direction[k]);
+      return result;
+    }
+
+
+
+    template <int dim>
+    Tensor<1, dim> HeldNode<dim>::prescribed() const
+    {
+      Tensor<1, dim> result;
+      for (unsigned int k = 0; k < n_held; ++k)
+        result += value[k] * direction[k];
+      return result;
+    }
+
+
+
     /** Adds a condition to a node that may already be held by others. */
     template <int dim>
-    void Conforming<dim>::hold(const Boundary &      boundary,
+    void Conforming<dim>::hold(const unsigned int    boundary_number,
                                const Tensor<1, dim> &normal,
                                const Tensor<1, dim> &value,
-                               HeldNode<dim> &       node) const
+                               HeldNode<dim>        &node) const
     {
-      const std::string &constraint = boundary.parameters.constraint;
-      const auto         hold_direction = [&](const Tensor<1, dim> &direction,
-                                      const double          amount) {
-        // What the rows already held do not say of the direction.
-        Tensor<1, dim> rest        = direction;
-        double         rest_amount = amount;
-        unsigned int   n_held      = 0;
-        for (unsigned int k = 0; k < dim; ++k)
-          if (node.held[k])
-            {
-              ++n_held;
-              Tensor<1, dim> row;
-              for (unsigned int d = 0; d < dim; ++d)
-                row[d] = node.Q[k][d];
-              const double part = direction * row;
-              rest -= part * row;
-              rest_amount -= part * node.value[k];
-            }
-        if (rest.norm() < 1e-6 || n_held == dim)
-          return;
-        rest_amount /= rest.norm();
-        rest /= rest.norm();
-
-        // Held rows first, then the new one, then any orthonormal completion.
-        std::vector<Tensor<1, dim>> rows;
-        Tensor<1, dim>              values;
-        for (unsigned int k = 0; k < dim; ++k)
-          if (node.held[k])
-            {
-              Tensor<1, dim> row;
-              for (unsigned int d = 0; d < dim; ++d)
-                row[d] = node.Q[k][d];
-              values[rows.size()] = node.value[k];
-              rows.push_back(row);
-            }
-        values[rows.size()] = rest_amount;
-        rows.push_back(rest);
-        const unsigned int n_rows = rows.size();
-        for (unsigned int e = 0; e < dim && rows.size() < dim; ++e)
+      const Boundary &boundary = boundaries[boundary_number];
+      const bool      slip     = boundary.parameters.constraint == "slip";
+      const bool      fixed    = boundary.parameters.constraint == "fixed";
+      if (slip)
+        node.hold(normal, value * normal / normal.norm(), boundary_number);
+      for (unsigned int d = 0; d < dim && !slip; ++d)
+        if (fixed || boundary.components[d])
           {
-            Tensor<1, dim> row;
-            row[e] = 1;
-            for (const auto &other : rows)
-              row -= (row * other) * other;
-            if (row.norm() > 0.5)
-              rows.push_back(row / row.norm());
+            Tensor<1, dim> axis;
+            axis[d] = 1;
+            node.hold(axis, value[d], boundary_number);
           }
-        for (unsigned int k = 0; k < dim; ++k)
-          {
-            node.held[k]  = k < n_rows;
-            node.value[k] = k < n_rows ? values[k] : 0.;
-            for (unsigned int d = 0; d < dim; ++d)
-              node.Q[k][d] = rows[k][d];
-          }
-      };
-
-      if (constraint == "slip")
-        hold_direction(normal / normal.norm(), value * normal / normal.norm());
-      else
-        for (unsigned int d = 0; d < dim; ++d)
-          if (constraint == "fixed" || boundary.components[d])
-            {
-              Tensor<1, dim> direction;
-              direction[d] = 1;
-              hold_direction(direction, value[d]);
-            }
     }
 
 
@@ -147,25 +140,20 @@ namespace Impoint
               auto found = held.find(node);
               if (found == held.end())
                 {
-                  found                  = held.emplace(node, HeldNode<dim>()).first;
-                  found->second.node     = node;
-                  found->second.boundary = i;
+                  found = held.emplace(node, HeldNode<dim>()).first;
+                  found->second.node = node;
                 }
-              hold(boundary, entry.second, value, found->second);
+              hold(i, entry.second, value, found->second);
             }
         }
       std::vector<HeldNode<dim>> result;
-      for (auto &entry : held)
-        {
-          HeldNode<dim> &node = entry.second;
-          for (unsigned int k = 0; k < dim; ++k)
-            for (unsigned int d = 0; d < dim; ++d)
-              node.rotated |= node.Q[k][d] != double(k == d);
-          result.push_back(node);
-        }
+      for (const auto &entry : held)
+        result.push_back(entry.second);
       return result;
     }
 
+    template struct HeldNode<2>;
+    template struct HeldNode<3>;
     template class Conforming<2>;
     template class Conforming<3>;
   } // namespace Enforcement

@@ -8,7 +8,7 @@ namespace Impoint
   namespace Enforcement
   {
     template <int dim>
-    Method<dim>::Method(const ConditionParameters &             parameters,
+    Method<dim>::Method(const ConditionParameters              &parameters,
                         PrescribedMotion<dim>                   motion,
                         std::unique_ptr<BoundaryParticles<dim>> particles)
       : condition(parameters)
@@ -47,9 +47,9 @@ namespace Impoint
     template <int dim>
     Tensor<1, dim> Method<dim>::displacement(const unsigned int b,
                                              const unsigned int n,
-                                             const double *     u) const
+                                             const double      *u) const
     {
-      const double * N = boundary->support(b);
+      const double  *N = boundary->support(b);
       Tensor<1, dim> result;
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int d = 0; d < dim; ++d)
@@ -70,12 +70,11 @@ namespace Impoint
 
     template <int dim>
     void Method<dim>::new_places(const unsigned int       r,
-                                 const double *           u,
+                                 const double            *u,
                                  std::vector<Point<dim>> &places) const
     {
-      const auto &       range = boundary->ranges()[r];
-      const unsigned int n =
-        current.active->basis().n_nodes_of(range.cell);
+      const auto        &range = boundary->ranges()[r];
+      const unsigned int n     = current.active->basis().n_nodes_of(range.cell);
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
           places[b] = boundary->position(b);
@@ -91,7 +90,7 @@ namespace Impoint
     template <int dim>
     void Method<dim>::finish_step(const std::vector<Point<dim>> &places)
     {
-      const auto &   slots = boundary->slots();
+      const auto    &slots = boundary->slots();
       Tensor<2, dim> rotation;
       if (motion.rotates())
         rotation = motion.rotation(current.start, current.end);
@@ -110,8 +109,8 @@ namespace Impoint
 
     template <int dim>
     std::unique_ptr<Method<dim>>
-    create(const ParameterFile &                   file,
-           const ConditionParameters &             parameters,
+    create(const ParameterFile                    &file,
+           const ConditionParameters              &parameters,
            std::unique_ptr<BoundaryParticles<dim>> particles)
     {
       PrescribedMotion<dim> motion(file, parameters);

@@ -13,18 +13,18 @@ namespace Impoint
       // In units of E/h: the largest factor that enters a matrix as it is, and
       // the one at which larger ones are augmented.
       constexpr double largest_plain_factor = 1e8;
-      constexpr double augmentation_factor  = 1e6;
+      constexpr double augmentation_factor  = 1e8;
 
       // What the V-cycle of the preconditioner bears, in units of E/h.
       constexpr double moderate_factor = 10.;
 
       constexpr double small_cut_value = 0.01; // epsilon of P Eq. 53
-    } // namespace
+    }                                          // namespace
 
 
 
     template <int dim>
-    Penalty<dim>::Penalty(const ConditionParameters &             parameters,
+    Penalty<dim>::Penalty(const ConditionParameters              &parameters,
                           PrescribedMotion<dim>                   motion,
                           std::unique_ptr<BoundaryParticles<dim>> particles,
                           const bool                              projected)
@@ -36,26 +36,43 @@ namespace Impoint
 
 
     template <int dim>
-    double Penalty<dim>::beta(const unsigned int r) const
+    double Penalty<dim>::unit(const unsigned int r) const
     {
-      if (this->condition.factor_unit == "Pa/m")
-        return this->condition.factor;
       const auto &grid = this->current.active->basis().grid();
-      return this->condition.factor * this->current.young /
-             grid.size(this->boundary->ranges()[r].cell);
+      return this->current.young / grid.size(this->boundary->ranges()[r].cell);
     }
 
 
 
     template <int dim>
-    double Penalty<dim>::gamma(const unsigned int r) const
+    double Penalty<dim>::beta(const unsigned int r) const
     {
-      const auto & grid = this->current.active->basis().grid();
-      const double unit =
-        this->current.young / grid.size(this->boundary->ranges()[r].cell);
-      const double exact = beta(r);
-      return exact > largest_plain_factor * unit ? augmentation_factor * unit :
-                                                   exact;
+      return this->condition.factor_unit == "Pa/m" ?
+               this->condition.factor :
+               this->condition.factor * unit(r);
+    }
+
+
+
+    template <int dim>
+    bool Penalty<dim>::is_augmented(const unsigned int r) const
+    {
+      return beta(r) > largest_plain_factor * unit(r);
+    }
+
+
+
+    template <int dim>
+    double Penalty<dim>::gamma(const unsigned int r, const Patch &patch) const
+    {
+      if (!is_augmented(r))
+        return beta(r);
+      // A multiplier's error falls with gamma times the area: a small patch
+      // gets the stiffness of a whole cell.
+      const double h = this->current.active->basis().grid().size(
+        this->boundary->ranges()[r].cell);
+      const double whole = Utilities::fixed_power<dim - 1>(h);
+      return augmentation_factor * unit(r) * std::max(1., whole / patch.area);
     }
 
 
@@ -64,7 +81,7 @@ namespace Impoint
     bool Penalty<dim>::augmented() const
     {
       for (unsigned int r = 0; r < this->boundary->ranges().size(); ++r)
-        if (gamma(r) != beta(r))
+        if (is_augmented(r))
           return true;
       return false;
     }
@@ -144,7 +161,7 @@ namespace Impoint
     template <int dim>
     void Penalty<dim>::shape_values(const unsigned int b,
                                     const unsigned int n,
-                                    double *           N) const
+                                    double            *N) const
     {
       const double *support = this->boundary->support(b);
       std::copy(support, support + n, N);
@@ -174,9 +191,9 @@ namespace Impoint
     template <int dim>
     void Penalty<dim>::make_patch(const unsigned int r, Patch &patch) const
     {
-      const auto &active   = *this->current.active;
-      const auto &slots    = this->boundary->slots();
-      const auto  nodes    =
+      const auto &active = *this->current.active;
+      const auto &slots  = this->boundary->slots();
+      const auto  nodes =
         active.nodes(active.position(this->boundary->ranges()[r].cell));
       const unsigned int n = nodes.size();
       double             N[64];
@@ -218,7 +235,7 @@ namespace Impoint
     template <int dim>
     template <typename Function>
     void Penalty<dim>::for_patches(const unsigned int r,
-                                   const Function &   function) const
+                                   const Function    &function) const
     {
       const auto &range = this->boundary->ranges()[r];
       Patch       patch;
@@ -235,9 +252,9 @@ namespace Impoint
 
 
     template <int dim>
-    Tensor<1, dim> Penalty<dim>::gap(const Patch &      patch,
+    Tensor<1, dim> Penalty<dim>::gap(const Patch       &patch,
                                      const unsigned int n,
-                                     const double *     u) const
+                                     const double      *u) const
     {
       Tensor<1, dim> result = patch.gap;
       for (unsigned int a = 0; a < n; ++a)
@@ -253,16 +270,16 @@ namespace Impoint
 
     template <int dim>
     Tensor<1, dim> Penalty<dim>::traction(const unsigned int r,
-                                          const Patch &      patch,
-                                          const double *     u) const
+                                          const Patch       &patch,
+                                          const double      *u) const
     {
-      const unsigned int n =
-        this->current.active->basis().n_nodes_of(this->boundary->ranges()[r].cell);
-      const double exact = beta(r), matrix_factor = gamma(r);
-      if (exact == matrix_factor)
-        return exact * gap(patch, n, u);
-      return (patch.multiplier + matrix_factor * gap(patch, n, u)) /
-             (1. + matrix_factor / exact);
+      const unsigned int n = this->current.active->basis().n_nodes_of(
+        this->boundary->ranges()[r].cell);
+      const double factor = gamma(r, patch);
+      if (!is_augmented(r))
+        return factor * gap(patch, n, u);
+      return (patch.multiplier + factor * gap(patch, n, u)) /
+             (1. + factor / beta(r));
     }
 
 
@@ -270,21 +287,16 @@ namespace Impoint
     template <int dim>
     void Penalty<dim>::add(const unsigned int r,
                            const Strength     strength,
-                           CellSystem &       system) const
+                           CellSystem        &system) const
     {
-      const auto & grid  = this->current.active->basis().grid();
-      const double exact = beta(r), matrix_factor = gamma(r);
-      double       stiffness = exact == matrix_factor ?
-                           exact :
-                           matrix_factor / (1. + matrix_factor / exact);
-      if (strength == Strength::moderate)
-        stiffness = std::min(stiffness,
-                             moderate_factor * this->current.young /
-                               grid.size(this->boundary->ranges()[r].cell));
-
       for_patches(r, [&](const Patch &patch) {
-        const unsigned int   n = system.n;
-        const Tensor<1, dim> t = traction(r, patch, system.u);
+        const unsigned int   n         = system.n;
+        const Tensor<1, dim> t         = traction(r, patch, system.u);
+        double               stiffness = gamma(r, patch);
+        if (is_augmented(r))
+          stiffness /= 1. + stiffness / beta(r);
+        if (strength == Strength::moderate)
+          stiffness = std::min(stiffness, moderate_factor * unit(r));
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int d = 0; d < dim; ++d)
             system.residual[a * dim + d] +=
@@ -295,7 +307,7 @@ namespace Impoint
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int b = 0; b < n; ++b)
             {
-              double *     block = system.matrix + (a * n + b) * dim * dim;
+              double      *block = system.matrix + (a * n + b) * dim * dim;
               const double scale = stiffness * patch.area;
               for (unsigned int i = 0; i < dim; ++i)
                 if (!slip)
@@ -314,7 +326,7 @@ namespace Impoint
     template <int dim>
     void Penalty<dim>::update_multipliers(const unsigned int r, const double *u)
     {
-      if (gamma(r) == beta(r))
+      if (!is_augmented(r))
         return;
       for_patches(r, [&](const Patch &patch) {
         const Tensor<1, dim> t = traction(r, patch, u);
@@ -336,7 +348,7 @@ namespace Impoint
             this->boundary->set_vector(b, slots.force, Tensor<1, dim>());
           return;
         }
-      const auto &       active = *this->current.active;
+      const auto        &active = *this->current.active;
       const auto         nodes  = active.nodes(active.position(range.cell));
       const unsigned int n      = nodes.size();
       double             N[64];
@@ -348,7 +360,8 @@ namespace Impoint
             shape_values(b, n, N);
             Tensor<1, dim>       force;
             Tensor<1, dim>       total = this->boundary->vector(b, slots.gap);
-            const Tensor<1, dim> wall = this->boundary->vector(b, slots.increment);
+            const Tensor<1, dim> wall =
+              this->boundary->vector(b, slots.increment);
             if (slip)
               {
                 total[0] -= this->boundary->vector(b, slots.normal) * wall;

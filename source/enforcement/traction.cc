@@ -5,7 +5,7 @@ namespace Impoint
   namespace Enforcement
   {
     template <int dim>
-    Traction<dim>::Traction(const ConditionParameters &             parameters,
+    Traction<dim>::Traction(const ConditionParameters              &parameters,
                             PrescribedMotion<dim>                   motion,
                             std::unique_ptr<BoundaryParticles<dim>> particles,
                             Expression<dim>                         traction)
@@ -20,7 +20,8 @@ namespace Impoint
     {
       const Point<dim> start(
         this->boundary->vector(b, this->boundary->slots().start));
-      return this->boundary->area(b) * traction.vector(start, this->current.end);
+      return this->boundary->area(b) *
+             traction.vector(start, this->current.end);
     }
 
 
@@ -50,8 +51,7 @@ namespace Impoint
       for (unsigned int b = range.begin; b < range.end; ++b)
         this->boundary->set_vector(b,
                                    this->boundary->slots().force,
-                                   u != nullptr ? force(b) :
-                                                  Tensor<1, dim>());
+                                   u != nullptr ? force(b) : Tensor<1, dim>());
     }
 
     template class Traction<2>;

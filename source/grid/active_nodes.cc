@@ -19,9 +19,8 @@ namespace Impoint
 
 
   template <int dim>
-  bool
-  ActiveNodes<dim>::reinit(const std::vector<unsigned int> &material_cells,
-                           const std::vector<unsigned int> &boundary_cells)
+  bool ActiveNodes<dim>::reinit(const std::vector<unsigned int> &material_cells,
+                                const std::vector<unsigned int> &boundary_cells)
   {
     const bool changed = fresh || material_cells != last_material ||
                          boundary_cells != last_boundary;
@@ -44,8 +43,9 @@ namespace Impoint
 
     /** Nodes of cells, each once, increasing. */
     template <int dim>
-    std::vector<unsigned int> nodes_of_cells(const Basis<dim> &basis,
-                                             const std::vector<unsigned int> &cells)
+    std::vector<unsigned int>
+    nodes_of_cells(const Basis<dim>                &basis,
+                   const std::vector<unsigned int> &cells)
     {
       std::vector<unsigned int> nodes;
       for (const unsigned int c : cells)
@@ -59,7 +59,7 @@ namespace Impoint
     /** Those of @p nodes that other ranks own, as global indices by rank. */
     template <int dim>
     std::map<unsigned int, Indices>
-    by_foreign_owner(const Basis<dim> &               basis,
+    by_foreign_owner(const Basis<dim>                &basis,
                      const std::vector<unsigned int> &nodes)
     {
       const unsigned int me =
@@ -76,9 +76,9 @@ namespace Impoint
 
   /** For each of the nodes @p wanted: whether any rank has it in @p marked. */
   template <int dim>
-  std::vector<char> ActiveNodes<dim>::shared_marks(
-    const std::vector<unsigned int> &marked,
-    const std::vector<unsigned int> &wanted) const
+  std::vector<char>
+  ActiveNodes<dim>::shared_marks(const std::vector<unsigned int> &marked,
+                                 const std::vector<unsigned int> &wanted) const
   {
     const MPI_Comm    comm = functions.grid().communicator();
     std::vector<char> mark(functions.n_nodes(), false);
@@ -87,7 +87,8 @@ namespace Impoint
     if (Utilities::MPI::n_mpi_processes(comm) > 1)
       {
         const auto reported =
-          Utilities::MPI::some_to_some(comm, by_foreign_owner(functions, marked));
+          Utilities::MPI::some_to_some(comm,
+                                       by_foreign_owner(functions, marked));
         for (const auto &message : reported)
           for (const auto index : message.second)
             mark[functions.node_of(index)] = true;
@@ -112,8 +113,9 @@ namespace Impoint
 
 
   template <int dim>
-  void ActiveNodes<dim>::activate(const std::vector<unsigned int> &material_cells,
-                                  const std::vector<unsigned int> &boundary_cells)
+  void
+  ActiveNodes<dim>::activate(const std::vector<unsigned int> &material_cells,
+                             const std::vector<unsigned int> &boundary_cells)
   {
     for (const unsigned int c : cells)
       positions[c] = BackgroundGrid<dim>::nowhere;
@@ -186,8 +188,7 @@ namespace Impoint
       for (const auto &answer : Utilities::MPI::some_to_some(comm, answers))
         for (unsigned int i = 0; i < answer.second.size(); ++i)
           ghosts.emplace_back(answer.second[i],
-                              functions.node_of(
-                                questions.at(answer.first)[i]));
+                              functions.node_of(questions.at(answer.first)[i]));
     std::sort(ghosts.begin(), ghosts.end());
 
     global_numbers.clear();
@@ -200,9 +201,10 @@ namespace Impoint
         global_numbers.push_back(ghost.first);
       }
 
-    with_material = shared_marks(
-      nodes_of_cells(functions, {cells.begin(), cells.begin() + n_material}),
-      grid_nodes);
+    with_material =
+      shared_marks(nodes_of_cells(functions,
+                                  {cells.begin(), cells.begin() + n_material}),
+                   grid_nodes);
 
     for (const unsigned int block : {1, dim})
       {
@@ -268,9 +270,9 @@ namespace Impoint
           place[columns[q]] = q;
         for (std::size_t q = first_cell[i]; q < first_cell[i + 1]; ++q)
           {
-            const unsigned int k        = cells_of[q];
-            const auto         in_cell  = nodes(k);
-            const unsigned int n        = in_cell.size();
+            const unsigned int k       = cells_of[q];
+            const auto         in_cell = nodes(k);
+            const unsigned int n       = in_cell.size();
             for (unsigned int a = 0; a < n; ++a)
               if (in_cell[a] == i)
                 for (unsigned int b = 0; b < n; ++b)

@@ -3,16 +3,12 @@
 #include <impoint/grid/background_grid.h>
 
 #include <deal.II/boost_adaptors/bounding_box.h>
-
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
-
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q1.h>
-
 #include <deal.II/grid/grid_tools.h>
-
 #include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
@@ -29,7 +25,7 @@ namespace Impoint
 
 
   template <int dim>
-  BackgroundGrid<dim>::BackgroundGrid(const ParameterFile & file,
+  BackgroundGrid<dim>::BackgroundGrid(const ParameterFile  &file,
                                       const GridParameters &parameters,
                                       const MPI_Comm        communicator)
     : comm(communicator)
@@ -43,7 +39,7 @@ namespace Impoint
 
 
   template <int dim>
-  void BackgroundGrid<dim>::make_triangulation(const ParameterFile & file,
+  void BackgroundGrid<dim>::make_triangulation(const ParameterFile  &file,
                                                const GridParameters &parameters)
   {
     Triangulation<dim> coarse;
@@ -61,8 +57,9 @@ namespace Impoint
       }
     else
       {
-        mesh = std::make_unique<parallel::distributed::Triangulation<dim>>(comm);
-        map  = std::make_unique<MappingQ1<dim>>();
+        mesh =
+          std::make_unique<parallel::distributed::Triangulation<dim>>(comm);
+        map = std::make_unique<MappingQ1<dim>>();
       }
     mesh->copy_triangulation(coarse);
     refine_mesh(parameters, *mesh);
@@ -72,7 +69,7 @@ namespace Impoint
 
 
   template <int dim>
-  void BackgroundGrid<dim>::refine(const ParameterFile & file,
+  void BackgroundGrid<dim>::refine(const ParameterFile  &file,
                                    const GridParameters &parameters)
   {
     if (parameters.refine_where.empty())
@@ -145,7 +142,7 @@ namespace Impoint
   template <int dim>
   void BackgroundGrid<dim>::set_affine_map(const unsigned int c)
   {
-    const auto &   cell = iterators[c];
+    const auto    &cell = iterators[c];
     Tensor<2, dim> jacobian; // columns: edges at vertex 0
     for (unsigned int k = 0; k < dim; ++k)
       {
@@ -198,8 +195,9 @@ namespace Impoint
               const unsigned char standard_orientation = 1;
               bool                holds                = false;
               for (unsigned int i = 0; i < dim; ++i)
-                holds |= reference.face_to_cell_vertices(
-                           f, i, standard_orientation) == v;
+                holds |=
+                  reference.face_to_cell_vertices(f, i, standard_orientation) ==
+                  v;
               if (!holds)
                 opposite_face[v] = f;
             }
@@ -269,7 +267,8 @@ namespace Impoint
   template <int dim>
   double BackgroundGrid<dim>::size(const unsigned int c) const
   {
-    const double box = is_simplicial ? volume(c) * (dim == 2 ? 2. : 6.) : volume(c);
+    const double box =
+      is_simplicial ? volume(c) * (dim == 2 ? 2. : 6.) : volume(c);
     return dim == 2 ? std::sqrt(box) : std::cbrt(box);
   }
 
@@ -291,7 +290,7 @@ namespace Impoint
   std::vector<HalfSpace<dim>>
   BackgroundGrid<dim>::faces(const unsigned int c) const
   {
-    const auto &                cell   = iterators[c];
+    const auto                 &cell   = iterators[c];
     const Point<dim>            center = cell->center();
     std::vector<HalfSpace<dim>> half_spaces;
     for (const unsigned int f : cell->face_indices())
@@ -333,7 +332,7 @@ namespace Impoint
 
   template <int dim>
   Point<dim> BackgroundGrid<dim>::to_reference(const unsigned int c,
-                                               const Point<dim> & x) const
+                                               const Point<dim>  &x) const
   {
     const Point<dim> linear(inverse_jacobian[c] * (x - corner[c]));
     if (affine[c])
@@ -370,7 +369,7 @@ namespace Impoint
 
 
   template <int dim>
-  void BackgroundGrid<dim>::order_faces(const Point<dim> &           xi,
+  void BackgroundGrid<dim>::order_faces(const Point<dim>            &xi,
                                         std::array<unsigned int, 6> &faces,
                                         unsigned int &n_violated) const
   {
@@ -406,14 +405,14 @@ namespace Impoint
   template <int dim>
   unsigned int BackgroundGrid<dim>::next_cell(const unsigned int c,
                                               const unsigned int face,
-                                              const Point<dim> & x) const
+                                              const Point<dim>  &x) const
   {
     const unsigned int neighbor = neighbors[c * n_faces + face];
     if (neighbor != refined)
       return neighbor;
     unsigned int best     = nowhere;
     double       smallest = std::numeric_limits<double>::max();
-    const auto & cell     = iterators[c];
+    const auto  &cell     = iterators[c];
     for (unsigned int s = 0; s < cell->face(face)->n_children(); ++s)
       {
         const auto child = cell->neighbor_child_on_subface(face, s);
@@ -433,9 +432,9 @@ namespace Impoint
 
 
   template <int dim>
-  unsigned int BackgroundGrid<dim>::walk(const Point<dim> & x,
+  unsigned int BackgroundGrid<dim>::walk(const Point<dim>  &x,
                                          const unsigned int start,
-                                         Point<dim> &       xi) const
+                                         Point<dim>        &xi) const
   {
     unsigned int                c = start, previous = nowhere;
     std::array<unsigned int, 6> faces;
@@ -464,7 +463,7 @@ namespace Impoint
 
   template <int dim>
   unsigned int BackgroundGrid<dim>::find(const Point<dim> &x,
-                                         Point<dim> &      xi) const
+                                         Point<dim>       &xi) const
   {
     // On a face several cells hold x. A nudge in a direction that is parallel
     // to no face chooses the same one of them on every rank.

@@ -1,14 +1,11 @@
 #include <impoint/grid/basis.h>
 
 #include <deal.II/base/index_set.h>
-
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/dofs/dof_tools.h>
-
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/fe_values.h>
-
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
@@ -53,9 +50,9 @@ namespace Impoint
   template <int dim>
   void Basis<dim>::number_nodes()
   {
-    const auto &   dofs  = elements->dofs;
-    const IndexSet owned = dofs.locally_owned_dofs();
-    IndexSet &     relevant = elements->relevant;
+    const auto    &dofs     = elements->dofs;
+    const IndexSet owned    = dofs.locally_owned_dofs();
+    IndexSet      &relevant = elements->relevant;
     DoFTools::extract_locally_relevant_dofs(dofs, relevant);
     elements->hanging.reinit(relevant);
     DoFTools::make_hanging_node_constraints(dofs, elements->hanging);
@@ -72,8 +69,8 @@ namespace Impoint
   template <int dim>
   void Basis<dim>::list_cell_nodes()
   {
-    const auto &                         dofs = elements->dofs;
-    const unsigned int                   n_v  = elements->element->n_dofs_per_cell();
+    const auto        &dofs = elements->dofs;
+    const unsigned int n_v  = elements->element->n_dofs_per_cell();
     std::vector<types::global_dof_index> indices(n_v);
 
     points.resize(global_indices.size());
@@ -131,8 +128,7 @@ namespace Impoint
 
 
   template <int dim>
-  unsigned int
-  Basis<dim>::node_of(const types::global_dof_index index) const
+  unsigned int Basis<dim>::node_of(const types::global_dof_index index) const
   {
     const auto place =
       std::lower_bound(global_indices.begin(), global_indices.end(), index);
@@ -149,8 +145,8 @@ namespace Impoint
     template <int dim>
     unsigned int linear_functions(const bool        simplicial,
                                   const Point<dim> &xi,
-                                  double *          values,
-                                  double *          gradients)
+                                  double           *values,
+                                  double           *gradients)
     {
       if (simplicial)
         {
@@ -192,8 +188,8 @@ namespace Impoint
 
   template <int dim>
   void Basis<dim>::evaluate(const unsigned int c,
-                            const Point<dim> & xi,
-                            double *           support) const
+                            const Point<dim>  &xi,
+                            double            *support) const
   {
     if (!background.is_affine(c))
       return evaluate_by_fe_values(c, xi, support);
@@ -236,8 +232,8 @@ namespace Impoint
 
   template <int dim>
   void Basis<dim>::evaluate_by_fe_values(const unsigned int c,
-                                         const Point<dim> & xi,
-                                         double *           support) const
+                                         const Point<dim>  &xi,
+                                         double            *support) const
   {
     FEValues<dim> fe_values(background.mapping(),
                             *elements->element,
@@ -264,7 +260,8 @@ namespace Impoint
 
   namespace
   {
-    /** Normal of a cell's face out of the cell, as long as the face is large. */
+    /** Normal of a cell's face out of the cell, as long as the face is large.
+     */
     template <int dim, typename CellIterator, typename FaceIterator>
     Tensor<1, dim> outward_normal(const CellIterator &cell,
                                   const FaceIterator &face)

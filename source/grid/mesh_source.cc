@@ -3,12 +3,11 @@
 #include <impoint/grid/mesh.h>
 #include <impoint/grid/mesh_source.h>
 
-#include <cstdlib>
-
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 
 #include <array>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -86,7 +85,7 @@ namespace Impoint
 
 
     /** deal.II reads a negative number of cells as a huge one. */
-    void check_cell_numbers(const ParameterFile & file,
+    void check_cell_numbers(const ParameterFile  &file,
                             const MeshParameters &parameters)
     {
       if (parameters.generator.rfind("subdivided_hyper_", 0) != 0)

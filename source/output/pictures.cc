@@ -15,7 +15,7 @@ namespace Impoint
   PointFields<dim>
   Pictures<dim>::material(const MaterialPoints<dim> &points) const
   {
-    const auto &     slots   = points.slots();
+    const auto      &slots   = points.slots();
     const bool       dynamic = points.carried().dynamic;
     PointFields<dim> result;
     NamedField       displacement{"displacement", dim, {}};
@@ -23,15 +23,14 @@ namespace Impoint
     NamedField       stress{"Cauchy stress", 6, {}};
     NamedField       J{"J", 1, {}};
     NamedField       body{"body", 1, {}}, id{"id", 1, {}};
-    const auto       put = [&](NamedField &        field,
-                         const unsigned int  p,
-                         const unsigned int  slot) {
-      const double *state = points.data(p) + slot;
-      field.data.insert(field.data.end(), state, state + dim);
-    };
+    const auto       put =
+      [&](NamedField &field, const unsigned int p, const unsigned int slot) {
+        const double *state = points.data(p) + slot;
+        field.data.insert(field.data.end(), state, state + dim);
+      };
     for (unsigned int p = 0; p < points.n(); ++p)
       {
-        const double *state   = points.data(p);
+        const double *state    = points.data(p);
         const double  jacobian = determinant(points.deformation_gradient(p));
         const double  divisor =
           points.material(p).small_strain() ? 1. : jacobian;
@@ -69,12 +68,14 @@ namespace Impoint
     for (unsigned int i = 0; i < boundaries.size(); ++i)
       for (unsigned int b = 0; b < boundaries[i]->n(); ++b)
         {
-          const auto &   particles = *boundaries[i];
-          const auto &   slots     = particles.slots();
-          const double * state     = particles.data(b);
+          const auto   &particles = *boundaries[i];
+          const auto   &slots     = particles.slots();
+          const double *state     = particles.data(b);
           result.positions.push_back(particles.position(b));
           const auto put = [&](NamedField &field, const unsigned int slot) {
-            field.data.insert(field.data.end(), state + slot, state + slot + dim);
+            field.data.insert(field.data.end(),
+                              state + slot,
+                              state + slot + dim);
           };
           put(force, slots.force);
           put(gap, slots.gap);
@@ -89,11 +90,11 @@ namespace Impoint
 
 
   template <int dim>
-  GridFields<dim> Pictures<dim>::grid(
-    const ActiveNodes<dim> &                          active,
-    const LinearAlgebra::distributed::Vector<double> &u) const
+  GridFields<dim>
+  Pictures<dim>::grid(const ActiveNodes<dim>                           &active,
+                      const LinearAlgebra::distributed::Vector<double> &u) const
   {
-    const auto &    basis = active.basis();
+    const auto     &basis = active.basis();
     GridFields<dim> result;
     result.simplices = basis.grid().simplicial();
     NamedField          displacement{"displacement of the step", dim, {}};
@@ -130,10 +131,10 @@ namespace Impoint
   template <int dim>
   void Pictures<dim>::write(
     const double                                       time,
-    const MaterialPoints<dim> &                        points,
+    const MaterialPoints<dim>                         &points,
     const std::vector<const BoundaryParticles<dim> *> &boundaries,
-    const ActiveNodes<dim> &                           active,
-    const LinearAlgebra::distributed::Vector<double> & u)
+    const ActiveNodes<dim>                            &active,
+    const LinearAlgebra::distributed::Vector<double>  &u)
   {
     points_writer.write(time, material(points));
     if (!boundaries.empty())

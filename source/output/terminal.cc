@@ -255,7 +255,9 @@ namespace Impoint
     if (!results)
       return;
     // the full bar stays to be seen
-    out << (bar_is_shown ? "\n\n" : normal ? "\n" : "")
+    out << (bar_is_shown ? "\n\n" :
+            normal       ? "\n" :
+                           "")
         << results_table(record.results);
     bar_is_shown = false;
     if (!normal)

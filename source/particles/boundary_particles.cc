@@ -36,9 +36,8 @@ namespace Impoint
             state[slot.normal + d] = seed.normal[d];
           }
         state[slot.area] = seed.area * thickness;
-        particles.push_back({seed.cell,
-                             types::particle_index(seed.number),
-                             std::move(state)});
+        particles.push_back(
+          {seed.cell, types::particle_index(seed.number), std::move(state)});
       }
     this->insert(particles);
   }

@@ -10,7 +10,7 @@ namespace Impoint
 {
   template <int dim>
   GatheredSolver<dim>::GatheredSolver(const LinearSolverParameters &parameters,
-                                      Counters &                    counters,
+                                      Counters                     &counters,
                                       const MPI_Comm communicator)
     : comm(communicator)
     , alone(Utilities::MPI::n_mpi_processes(comm) == 1)
@@ -24,7 +24,8 @@ namespace Impoint
   {
     /** Throws on all ranks what rank 0 threw. */
     template <typename Function>
-    void as_one(const MPI_Comm comm, const bool on_root, const Function &function)
+    void
+    as_one(const MPI_Comm comm, const bool on_root, const Function &function)
     {
       std::string step_failure, run_failure;
       if (on_root)
@@ -52,7 +53,7 @@ namespace Impoint
 
 
   template <int dim>
-  void GatheredSolver<dim>::new_pattern(const ActiveNodes<dim> &  nodes,
+  void GatheredSolver<dim>::new_pattern(const ActiveNodes<dim>   &nodes,
                                         const LinearProblem<dim> &local)
   {
     active     = &nodes;
@@ -63,9 +64,10 @@ namespace Impoint
     std::vector<unsigned int> own_numbers(nodes.n_nodes());
     for (unsigned int i = 0; i < nodes.n_nodes(); ++i)
       own_numbers[i] = nodes.global_number(i);
-    numbers             = Utilities::MPI::gather(comm, own_numbers, 0);
-    const auto starts   = Utilities::MPI::gather(comm, local.pattern.row_start, 0);
-    const auto columns  = Utilities::MPI::gather(comm, local.pattern.columns, 0);
+    numbers = Utilities::MPI::gather(comm, own_numbers, 0);
+    const auto starts =
+      Utilities::MPI::gather(comm, local.pattern.row_start, 0);
+    const auto columns = Utilities::MPI::gather(comm, local.pattern.columns, 0);
     if (on_root)
       {
         std::vector<std::vector<unsigned int>> rows(n_unknowns / dim);
@@ -82,7 +84,8 @@ namespace Impoint
             gathered.pattern.columns.insert(gathered.pattern.columns.end(),
                                             row.begin(),
                                             row.end());
-            gathered.pattern.row_start.push_back(gathered.pattern.columns.size());
+            gathered.pattern.row_start.push_back(
+              gathered.pattern.columns.size());
           }
         places.assign(numbers.size(), {});
         for (unsigned int rank = 0; rank < numbers.size(); ++rank)
@@ -93,9 +96,12 @@ namespace Impoint
                                  gathered.pattern.row_start[row];
               const auto end = gathered.pattern.columns.begin() +
                                gathered.pattern.row_start[row + 1];
-              for (std::size_t q = starts[rank][i]; q < starts[rank][i + 1]; ++q)
+              for (std::size_t q = starts[rank][i]; q < starts[rank][i + 1];
+                   ++q)
                 places[rank].push_back(
-                  std::lower_bound(begin, end, numbers[rank][columns[rank][q]]) -
+                  std::lower_bound(begin,
+                                   end,
+                                   numbers[rank][columns[rank][q]]) -
                   gathered.pattern.columns.begin());
             }
       }
@@ -137,7 +143,7 @@ namespace Impoint
     for (unsigned int rank = 0; rank < all.size(); ++rank)
       for (unsigned int i = 0; i < numbers[rank].size(); ++i)
         {
-          const double *     node   = all[rank].data() + i * width;
+          const double      *node   = all[rank].data() + i * width;
           const unsigned int number = numbers[rank][i];
           gathered.regularisation[number] =
             std::max(gathered.regularisation[number], node[0]);
@@ -171,7 +177,7 @@ namespace Impoint
 
     gathered.has_moderate = local.has_moderate;
     const auto add_up     = [&](const BlockMatrix<dim> &part,
-                            BlockMatrix<dim> &      sum) {
+                            BlockMatrix<dim>       &sum) {
       const auto values = Utilities::MPI::gather(comm, part.values, 0);
       if (!on_root)
         return;
@@ -193,8 +199,8 @@ namespace Impoint
 
   template <int dim>
   void GatheredSolver<dim>::solve(const LinearProblem<dim> &local,
-                                  const Vector &            b,
-                                  Vector &                  x)
+                                  const Vector             &b,
+                                  Vector                   &x)
   {
     const unsigned int  n_own = active->n_owned_nodes() * dim;
     std::vector<double> own(b.begin(), b.begin() + n_own), solution;
@@ -209,7 +215,7 @@ namespace Impoint
     for (const auto &part : parts)
       whole_b.insert(whole_b.end(), part.begin(), part.end());
     as_one(comm, on_root, [&]() { solver.solve(gathered, whole_b, solution); });
-    solution = Utilities::MPI::broadcast(comm, solution);
+    solution                = Utilities::MPI::broadcast(comm, solution);
     const std::size_t first = x.get_partitioner()->local_range().first;
     std::copy(solution.begin() + first,
               solution.begin() + first + n_own,

@@ -21,11 +21,12 @@ namespace Impoint
                       "Size of a step [s]; halved and grown again where a step "
                       "fails.",
                       Patterns::Double(1e-300));
-    prm.add_parameter("Smallest step",
-                      smallest,
-                      "Part of 'Step' below which steps are not halved: the run "
-                      "fails instead.",
-                      Patterns::Double(0, 1));
+    prm.add_parameter(
+      "Smallest step",
+      smallest,
+      "Part of 'Step' below which steps are not halved: the run "
+      "fails instead.",
+      Patterns::Double(0, 1));
     prm.add_parameter("Newmark beta",
                       beta,
                       "Newmark's parameter beta.",
@@ -57,10 +58,8 @@ namespace Impoint
                          file.value("Time/End time") + " s",
                        "Set Step to at most 'End time'.");
     if (!is_dynamic())
-      for (const std::string entry : {"Newmark beta",
-                                      "Newmark gamma",
-                                      "Mass",
-                                      "Initial acceleration"})
+      for (const std::string entry :
+           {"Newmark beta", "Newmark gamma", "Mass", "Initial acceleration"})
         if (file.is_set("Time/" + entry))
           throw file.error("Time/" + entry,
                            "'" + entry + "' is set in a quasi-static scene",
@@ -84,7 +83,7 @@ namespace Impoint
 
 
   template <int dim>
-  void Inertia<dim>::project(const ActiveNodes<dim> &   active,
+  void Inertia<dim>::project(const ActiveNodes<dim>    &active,
                              const MaterialPoints<dim> &points,
                              const double               time_step)
   {

@@ -35,8 +35,8 @@ namespace Impoint
 
   template <int dim>
   Newton<dim>::Newton(const NewtonParameters &parameters,
-                      NonlinearSystem<dim> &  system,
-                      Counters &              counters)
+                      NonlinearSystem<dim>   &system,
+                      Counters               &counters)
     : parameters(parameters)
     , system(system)
     , counters(counters)
@@ -72,7 +72,8 @@ namespace Impoint
         const double increment = size > 0 ? delta.linfty_norm() / size : 0.;
         if ((history.back() <= parameters.tolerance &&
              increment <= parameters.increment_tolerance) ||
-            (increment <= stalled_increment && history.back() <= stalled_residual))
+            (increment <= stalled_increment &&
+             history.back() <= stalled_residual))
           return;
         if (!tangent_is_new)
           system.evaluate(u, true);
@@ -101,12 +102,15 @@ namespace Impoint
   template <int dim>
   double Newton<dim>::advance(const Vector &delta,
                               const bool    tangent_wanted,
-                              Vector &      u)
+                              Vector       &u)
   {
-    constexpr double     worst_growth = 2.;
-    constexpr unsigned   max_cuts     = 8;
-    const Vector         start(u);
-    double               part = 1.;
+    constexpr double       worst_growth = 2.;
+    constexpr unsigned int max_cuts     = 8;
+    // Gaps that hardly touch a node converge ever more slowly. Left at this
+    // they still have the stiffness of augmentation, 1e8 E/h.
+    constexpr unsigned int max_multiplier_updates = 10;
+    const Vector           start(u);
+    double                 part = 1.;
     for (unsigned int cut = 0;; ++cut, part *= 0.5)
       {
         u = start;
@@ -116,13 +120,14 @@ namespace Impoint
         try
           {
             // Multipliers follow full steps only: cut ones are far from them.
-            if (cut == 0)
+            if (cut == 0 && history.size() <= max_multiplier_updates)
               system.update_multipliers(u);
             tangent_is_new        = tangent_wanted && cut == 0;
             const double residual = system.evaluate(u, tangent_is_new);
             // The first correction brings prescribed displacements in: there
             // is nothing to compare its residual with.
-            if (last || history.size() == 1 || std::isfinite(residual) == false ||
+            if (last || history.size() == 1 ||
+                std::isfinite(residual) == false ||
                 residual <= worst_growth * history.back())
               {
                 if (!std::isfinite(residual))

@@ -3,6 +3,8 @@
 #include <impoint/solver/nonlinear_system.h>
 #include <impoint/terms/consistent_mass.h>
 
+#include <deal.II/base/symmetric_tensor.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,13 +20,13 @@ namespace Impoint
 
   template <int dim>
   NonlinearSystem<dim>::NonlinearSystem(
-    const ActiveNodes<dim> &            active,
-    const MaterialPoints<dim> &         points,
-    Methods &                           methods,
+    const ActiveNodes<dim>             &active,
+    const MaterialPoints<dim>          &points,
+    Methods                            &methods,
     const Enforcement::Conforming<dim> &conforming,
-    const LinearSolverParameters &      parameters,
-    Counters &                          counters,
-    Seconds &                           seconds)
+    const LinearSolverParameters       &parameters,
+    Counters                           &counters,
+    Seconds                            &seconds)
     : active(active)
     , points(points)
     , methods(methods)
@@ -85,7 +87,7 @@ namespace Impoint
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
         const unsigned int n     = active.nodes(k).size();
-        const auto &       range = points.ranges()[k];
+        const auto        &range = points.ranges()[k];
         // Simplices see all their modes with one point. Elsewhere as many
         // strains as modes are not enough: points may lie on a line.
         if (n > dim + 1 &&
@@ -102,7 +104,7 @@ namespace Impoint
   template <int dim>
   void NonlinearSystem<dim>::begin_step(const double        start,
                                         const double        end,
-                                        const Vector &      loads,
+                                        const Vector       &loads,
                                         const Inertia<dim> *step_inertia)
   {
     external = loads;
@@ -126,7 +128,8 @@ namespace Impoint
   template <int dim>
   bool NonlinearSystem<dim>::is_linear() const
   {
-    return points.small_strain() && points.constant_tangent() && !is_augmented();
+    return points.small_strain() && points.constant_tangent() &&
+           !is_augmented();
   }
 
 
@@ -145,7 +148,7 @@ namespace Impoint
 
   template <int dim>
   void NonlinearSystem<dim>::gather(const unsigned int   k,
-                                    const Vector &       u,
+                                    const Vector        &u,
                                     std::vector<double> &values) const
   {
     const auto nodes = active.nodes(k);
@@ -159,11 +162,11 @@ namespace Impoint
 
   template <int dim>
   void NonlinearSystem<dim>::scatter(const unsigned int k,
-                                     BlockMatrix<dim> & matrix) const
+                                     BlockMatrix<dim>  &matrix) const
   {
     const unsigned int  n    = active.nodes(k).size();
     const unsigned int *to   = active.scatter(k);
-    const double *      from = cell_matrix.data();
+    const double       *from = cell_matrix.data();
     for (unsigned int ab = 0; ab < n * n; ++ab, from += dim * dim)
       {
         double *block = matrix.values.data() + std::size_t(to[ab]) * dim * dim;
@@ -194,7 +197,7 @@ namespace Impoint
                       std::vector<double> &u,
                       std::vector<double> &residual,
                       std::vector<double> &matrix,
-                      CellSystem &         system)
+                      CellSystem          &system)
     {
       const unsigned int n = n_nodes * dim;
       residual.assign(n, 0.);
@@ -218,7 +221,8 @@ namespace Impoint
     std::vector<double>       accelerations;
     CellSystem                system;
     unsigned int              next_starved = 0;
-    for (unsigned int k = part == Part::all ? 0 : active.n_material_cells();
+    for (unsigned int k = part == Part::boundaries ? active.n_material_cells() :
+                                                     0;
          k < active.n_cells();
          ++k)
       {
@@ -235,7 +239,8 @@ namespace Impoint
           {
             for (const auto &term : terms)
               term->add(k, system);
-            if (next_starved < hourglass.cells().size() &&
+            // In dynamics the mass holds what few points cannot see.
+            if (inertia == nullptr && next_starved < hourglass.cells().size() &&
                 hourglass.cells()[next_starved] == k)
               hourglass.add(next_starved++, system);
             if (inertia != nullptr && inertia->consistent())
@@ -321,7 +326,7 @@ namespace Impoint
             const auto row   = problem.pattern.columns.begin();
             const auto begin = row + problem.pattern.row_start[i];
             const auto end   = row + problem.pattern.row_start[i + 1];
-            double *   block = problem.matrix.values.data() +
+            double    *block = problem.matrix.values.data() +
                             (std::lower_bound(begin, end, i) - row) * dim * dim;
             for (unsigned int d = 0; d < dim; ++d)
               block[d * dim + d] += inertia->alpha() * mass;
@@ -352,11 +357,13 @@ namespace Impoint
         failure = step_failure.what();
       }
     for (const auto &message :
-         Utilities::MPI::all_gather(active.basis().grid().communicator(), failure))
+         Utilities::MPI::all_gather(active.basis().grid().communicator(),
+                                    failure))
       if (!message.empty())
         throw StepFailed(message);
 
-    if (inertia != nullptr && (part != Part::all || !inertia->consistent()))
+    if (inertia != nullptr &&
+        (part == Part::boundaries || !inertia->consistent()))
       add_inertia(u, tangent_wanted);
     full_rest.compress(VectorOperation::add);
     const double internal = full_rest.l2_norm();
@@ -373,7 +380,8 @@ namespace Impoint
       }
     Vector before(full_rest);
     full_rest = 0;
-    assemble_boundaries(u, tangent_wanted);
+    if (part != Part::material)
+      assemble_boundaries(u, tangent_wanted);
     full_rest.compress(VectorOperation::add);
     scale = std::max({internal, full_rest.l2_norm(), external.l2_norm()});
     full_rest += before;
@@ -408,11 +416,7 @@ namespace Impoint
         Tensor<1, dim> r;
         for (unsigned int d = 0; d < dim; ++d)
           r[d] = rest.local_element(node.node * dim + d);
-        Tensor<1, dim> local = node.Q * r;
-        for (unsigned int k = 0; k < dim; ++k)
-          if (node.held[k])
-            local[k] = 0;
-        r = transpose(node.Q) * local;
+        r = node.projector() * r;
         for (unsigned int d = 0; d < dim; ++d)
           rest.local_element(node.node * dim + d) = r[d];
       }
@@ -432,64 +436,59 @@ namespace Impoint
 
   template <int dim>
   Tensor<1, dim>
-  NonlinearSystem<dim>::reaction(const Enforcement::HeldNode<dim> &node) const
+  NonlinearSystem<dim>::reaction(const Enforcement::HeldNode<dim> &node,
+                                 const unsigned int                k) const
   {
-    Tensor<1, dim> r;
+    double force = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      r[d] = full_rest.local_element(node.node * dim + d);
-    Tensor<1, dim> local = node.Q * r;
-    for (unsigned int k = 0; k < dim; ++k)
-      if (!node.held[k])
-        local[k] = 0;
-    return transpose(node.Q) * local;
+      force +=
+        full_rest.local_element(node.node * dim + d) * node.direction[k][d];
+    return force * node.direction[k];
   }
 
 
 
-  /** Turns held nodes into their frames and cuts what is held out of the
-   * matrix: P Eqs. 29, 32, 35. */
+  /** P K P + largest (1 - P) with the projector P onto what nodes are free to
+   * do: P Eqs. 29, 32, 35 without turning unknowns into other frames, which
+   * would hide rigid motions from whoever reads the matrix. */
   template <int dim>
   void NonlinearSystem<dim>::eliminate(BlockMatrix<dim> &matrix) const
   {
     if (held.empty())
       return;
-    std::vector<unsigned int> held_at(active.n_nodes(),
-                                      BackgroundGrid<dim>::nowhere);
+    constexpr unsigned int    none = BackgroundGrid<dim>::nowhere;
+    const Tensor<2, dim>      one(unit_symmetric_tensor<dim>());
+    const auto               &pattern = problem.pattern;
     double                    largest = 0;
+    std::vector<unsigned int> held_at(active.n_nodes(), none);
     for (unsigned int i = 0; i < held.size(); ++i)
       held_at[held[i].node] = i;
-    const auto &pattern = problem.pattern;
     for (const double value : matrix.values)
       largest = std::max(largest, std::abs(value));
 
     const auto treat = [&](const unsigned int row, const std::size_t q) {
       const unsigned int column = pattern.columns[q];
       const unsigned int i = held_at[row], j = held_at[column];
-      if (i == BackgroundGrid<dim>::nowhere && j == BackgroundGrid<dim>::nowhere)
+      if (i == none && j == none)
         return;
-      double *       values = matrix.values.data() + q * dim * dim;
+      double        *values = matrix.values.data() + q * dim * dim;
       Tensor<2, dim> block;
       for (unsigned int r = 0; r < dim; ++r)
         for (unsigned int s = 0; s < dim; ++s)
           block[r][s] = values[r * dim + s];
-      if (i != BackgroundGrid<dim>::nowhere)
-        block = held[i].Q * block;
-      if (j != BackgroundGrid<dim>::nowhere)
-        block = block * transpose(held[j].Q);
+      if (i != none)
+        block = held[i].projector() * block;
+      if (j != none)
+        block = block * held[j].projector();
+      if (row == column && row < active.n_owned_nodes())
+        block += largest * (one - held[i].projector());
       for (unsigned int r = 0; r < dim; ++r)
         for (unsigned int s = 0; s < dim; ++s)
-          {
-            const bool cut =
-              (i != BackgroundGrid<dim>::nowhere && held[i].held[r]) ||
-              (j != BackgroundGrid<dim>::nowhere && held[j].held[s]);
-            const bool diagonal =
-              row == column && r == s && row < active.n_owned_nodes();
-            values[r * dim + s] =
-              cut ? (diagonal ? largest : 0.) : block[r][s];
-          }
+          values[r * dim + s] = block[r][s];
     };
     for (unsigned int row = 0; row < pattern.n_rows(); ++row)
-      for (std::size_t q = pattern.row_start[row]; q < pattern.row_start[row + 1];
+      for (std::size_t q = pattern.row_start[row];
+           q < pattern.row_start[row + 1];
            ++q)
         treat(row, q);
   }
@@ -507,7 +506,7 @@ namespace Impoint
     if (first)
       for (const auto &node : held)
         {
-          const Tensor<1, dim> value = transpose(node.Q) * node.value;
+          const Tensor<1, dim> value = node.prescribed();
           for (unsigned int d = 0; d < dim; ++d)
             delta.local_element(node.node * dim + d) = value[d];
           prescribed |= value.norm_square() > 0;
@@ -523,31 +522,21 @@ namespace Impoint
     right *= -1.;
     right.update_ghost_values();
 
-    const auto turn_and_cut = [&](Vector &vector, const bool back) {
+    // What is held is cut out of a vector, and takes its value instead.
+    const auto cut = [&](Vector &vector, const bool with_values) {
       for (const auto &node : held)
         {
           Tensor<1, dim> value;
           for (unsigned int d = 0; d < dim; ++d)
             value[d] = vector.local_element(node.node * dim + d);
-          if (!back)
-            {
-              value = node.Q * value;
-              for (unsigned int k = 0; k < dim; ++k)
-                if (node.held[k])
-                  value[k] = 0;
-            }
-          else
-            {
-              for (unsigned int k = 0; k < dim; ++k)
-                if (node.held[k])
-                  value[k] = first ? node.value[k] : 0.;
-              value = transpose(node.Q) * value;
-            }
+          value = node.projector() * value;
+          if (with_values)
+            value += node.prescribed();
           for (unsigned int d = 0; d < dim; ++d)
             vector.local_element(node.node * dim + d) = value[d];
         }
     };
-    turn_and_cut(right, false);
+    cut(right, false);
     eliminate(problem.matrix);
     if (problem.has_moderate)
       eliminate(problem.moderate);
@@ -560,7 +549,7 @@ namespace Impoint
     new_problem = false;
     solver.solve(problem, right, delta);
     delta.update_ghost_values();
-    turn_and_cut(delta, true);
+    cut(delta, first);
   }
 
 
@@ -609,23 +598,22 @@ namespace Impoint
   {
     Vector zero(active.unknowns()), w(active.unknowns());
     zero.update_ghost_values();
-    // Forces at rest, initial stress included; M a(0) of Newmark's relation
-    // holds the velocities instead.
+    // Forces at rest, initial stress included: without M a(0) of Newmark's
+    // relation, which holds the velocities, and without walls that move.
     const Inertia<dim> *step_inertia = inertia;
     inertia                          = nullptr;
-    evaluate(zero, false);
+    assemble(zero, false, Part::material);
     inertia = step_inertia;
     const Vector forces(full_rest);
     assemble(zero, true, Part::boundaries);
     full_rest = forces;
     full_rest.update_ghost_values();
     for (auto &node : held)
-      node.value = Tensor<1, dim>();
+      node.value = {};
     correct(true, w);
     accelerations = w;
     accelerations *= inertia->alpha();
     accelerations.update_ghost_values();
-    new_problem = true;
   }
 
   template class NonlinearSystem<2>;

@@ -2,7 +2,6 @@
 #include <impoint/solver/rigid_modes.h>
 
 #include <deal.II/base/symmetric_tensor.h>
-
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -16,7 +15,7 @@ namespace Impoint
     constexpr double smallest_stiffness = 1e-13; // of a mode, relative
 
     /** Connected parts: for each node the number of its part. */
-    unsigned int connected_parts(const BlockPattern &       pattern,
+    unsigned int connected_parts(const BlockPattern        &pattern,
                                  std::vector<unsigned int> &part)
     {
       const unsigned int        none = numbers::invalid_unsigned_int;
@@ -73,8 +72,9 @@ namespace Impoint
           largest = m;
       if (largest < dim)
         return std::string("moves freely along ") + "xyz"[largest];
-      return dim == 2 ? "turns freely" :
-                        std::string("turns freely about ") + "xyz"[largest - dim];
+      return dim == 2 ?
+               "turns freely" :
+               std::string("turns freely about ") + "xyz"[largest - dim];
     }
   } // namespace
 
@@ -85,8 +85,8 @@ namespace Impoint
   {
     constexpr unsigned int    n_modes = dim * (dim + 1) / 2;
     std::vector<unsigned int> part;
-    const unsigned int n_parts = connected_parts(problem.pattern, part);
-    const unsigned int n       = problem.pattern.n_rows();
+    const unsigned int        n_parts = connected_parts(problem.pattern, part);
+    const unsigned int        n       = problem.pattern.n_rows();
 
     std::vector<Point<dim>> centre(n_parts);
     std::vector<double>     count(n_parts, 0.), extent(n_parts, 0.);
@@ -98,8 +98,8 @@ namespace Impoint
     for (unsigned int c = 0; c < n_parts; ++c)
       centre[c] /= count[c];
     for (unsigned int i = 0; i < n; ++i)
-      extent[part[i]] = std::max(extent[part[i]],
-                                 centre[part[i]].distance(problem.points[i]));
+      extent[part[i]] =
+        std::max(extent[part[i]], centre[part[i]].distance(problem.points[i]));
 
     // A held unknown has nothing but its diagonal in its row; modes vanish
     // there, and the mode's energy is that of what is left.
@@ -112,7 +112,8 @@ namespace Impoint
         for (unsigned int r = 0; r < dim; ++r)
           for (unsigned int s = 0; s < dim; ++s)
             {
-              const double value = problem.matrix.values[(q * dim + r) * dim + s];
+              const double value =
+                problem.matrix.values[(q * dim + r) * dim + s];
               if (problem.pattern.columns[q] == i && r == s)
                 diagonal[i * dim + r] = value;
               else
@@ -129,8 +130,7 @@ namespace Impoint
               std::max(extent[part[i]], std::numeric_limits<double>::min()));
             const Tensor<1, dim> value = rigid_mode<dim>(m, place);
             for (unsigned int d = 0; d < dim; ++d)
-              modes[m][i * dim + d] =
-                row_sum[i * dim + d] > 0 ? value[d] : 0.;
+              modes[m][i * dim + d] = row_sum[i * dim + d] > 0 ? value[d] : 0.;
           }
         problem.matrix.vmult(modes[m].data(), products[m].data());
       }
@@ -163,11 +163,11 @@ namespace Impoint
           if (energy.eigenvalue(m).real() < smallest_stiffness)
             {
               std::ostringstream text;
-              text << "the material around (" << centre[c] << ") "
-                   << name_of_mode<dim>(
-                        {vectors[m].begin(), vectors[m].end()})
-                   << ": no boundary holds it, and statics has no answer. Add a "
-                      "boundary, or set 'Kind = dynamic' in section 'Time'";
+              text
+                << "the material around (" << centre[c] << ") "
+                << name_of_mode<dim>({vectors[m].begin(), vectors[m].end()})
+                << ": no boundary holds it, and statics has no answer. Add a "
+                   "boundary, or set 'Kind = dynamic' in section 'Time'";
               throw RunFailed(text.str());
             }
       }

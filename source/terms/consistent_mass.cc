@@ -4,11 +4,11 @@ namespace Impoint
 {
   template <int dim>
   void ConsistentMass<dim>::add(const unsigned int k,
-                                const double *     accelerations,
+                                const double      *accelerations,
                                 const double       alpha,
-                                CellSystem &       system) const
+                                CellSystem        &system) const
   {
-    const auto &       range = points.ranges()[k];
+    const auto        &range = points.ranges()[k];
     const unsigned int n     = system.n;
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
@@ -19,7 +19,8 @@ namespace Impoint
             for (unsigned int d = 0; d < dim; ++d)
               {
                 const double entry = mass * N[a] * N[b];
-                system.residual[a * dim + d] += entry * accelerations[b * dim + d];
+                system.residual[a * dim + d] +=
+                  entry * accelerations[b * dim + d];
                 if (system.matrix)
                   system.matrix[(a * n + b) * dim * dim + d * dim + d] +=
                     alpha * entry;

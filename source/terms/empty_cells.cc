@@ -5,7 +5,8 @@
 namespace Impoint
 {
   template <int dim>
-  EmptyCells<dim>::EmptyCells(const ActiveNodes<dim> &active, const double young)
+  EmptyCells<dim>::EmptyCells(const ActiveNodes<dim> &active,
+                              const double            young)
     : active(active)
     , young(young)
   {}
@@ -28,7 +29,7 @@ namespace Impoint
   void EmptyCells<dim>::integrate(const unsigned int   c,
                                   std::vector<double> &matrix) const
   {
-    const auto &       basis = active.basis();
+    const auto        &basis = active.basis();
     const unsigned int n     = basis.n_nodes_of(c);
     matrix.assign(n * n * dim * dim, 0.);
     std::vector<double>   support(basis.support_size(c));
@@ -43,14 +44,14 @@ namespace Impoint
       {
         basis.evaluate(c, rule.point(q), support.data());
         const double *gradients = support.data() + n;
-        const double  factor    = 0.5 * young * rule.weight(q) / rule_volume *
-                              basis.grid().volume(c);
+        const double  factor =
+          0.5 * young * rule.weight(q) / rule_volume * basis.grid().volume(c);
         for (unsigned int a = 0; a < n; ++a)
           for (unsigned int b = 0; b < n; ++b)
             {
               const double *g_a   = gradients + a * dim;
               const double *g_b   = gradients + b * dim;
-              double *      block = matrix.data() + (a * n + b) * dim * dim;
+              double       *block = matrix.data() + (a * n + b) * dim * dim;
               double        dot   = 0;
               for (unsigned int d = 0; d < dim; ++d)
                 dot += g_a[d] * g_b[d];
@@ -77,7 +78,8 @@ namespace Impoint
           for (unsigned int j = 0; j < dim; ++j)
             {
               const unsigned int at = (a * n + b) * dim * dim + i * dim + j;
-              system.residual[a * dim + i] += matrix[at] * system.u[b * dim + j];
+              system.residual[a * dim + i] +=
+                matrix[at] * system.u[b * dim + j];
               if (system.matrix)
                 system.matrix[at] += matrix[at];
             }

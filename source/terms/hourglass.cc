@@ -24,7 +24,7 @@ namespace Impoint
   template <int dim>
   void Hourglass<dim>::reinit(const std::vector<unsigned int> &starved)
   {
-    const auto &        basis = active.basis();
+    const auto         &basis = active.basis();
     const QGauss<dim>   rule(2);
     std::vector<double> support, centre;
     Point<dim>          middle;

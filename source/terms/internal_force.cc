@@ -38,8 +38,8 @@ namespace Impoint
     template <int dim>
     void push_forward(const int             n,
                       const Tensor<2, dim> &grad_u,
-                      const double *        start,
-                      double *              end)
+                      const double         *start,
+                      double               *end)
     {
       Tensor<2, dim> f = grad_u;
       for (int d = 0; d < dim; ++d)
@@ -60,8 +60,8 @@ namespace Impoint
     void add_force(const int               n,
                    const double            volume,
                    const VoigtVector<dim> &stress,
-                   const double *          gradients,
-                   double *                residual)
+                   const double           *gradients,
+                   double                 *residual)
     {
       for (int a = 0; a < n; ++a)
         for (int i = 0; i < dim; ++i)
@@ -80,9 +80,9 @@ namespace Impoint
                        const double                    volume,
                        const Materials::Response<dim> &response,
                        const bool                      geometric,
-                       const double *                  gradients,
-                       double *                        blocks,
-                       double *                        diagonal)
+                       const double                   *gradients,
+                       double                         *blocks,
+                       double                         *diagonal)
     {
       constexpr int n_v = Voigt<dim>::n;
       double        stress_column[dim]; // V tau g_b
@@ -109,7 +109,7 @@ namespace Impoint
           for (int a = 0; a <= b; ++a)
             {
               const double *h     = gradients + a * dim;
-              double *      block = blocks + (a * n + b) * dim * dim;
+              double       *block = blocks + (a * n + b) * dim * dim;
               for (int i = 0; i < dim; ++i)
                 for (int j = 0; j < dim; ++j)
                   {
@@ -131,7 +131,10 @@ namespace Impoint
 
     /** Completes a cell's matrix from its upper blocks and diagonal parts. */
     template <int dim>
-    void mirror(const int n, const double *upper, const double *diagonal, double *matrix)
+    void mirror(const int     n,
+                const double *upper,
+                const double *diagonal,
+                double       *matrix)
     {
       for (int b = 0; b < n; ++b)
         for (int a = 0; a <= b; ++a)
@@ -197,7 +200,7 @@ namespace Impoint
   template <int dim>
   template <int n_static>
   void InternalForce<dim>::add_cell(const unsigned int k,
-                                    CellSystem &       system) const
+                                    CellSystem        &system) const
   {
     constexpr int size = array_size<n_static>;
     const int     n    = n_static > 0 ? n_static : system.n;
@@ -212,14 +215,18 @@ namespace Impoint
     double                      new_history[64];
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
-    const auto &                range = points.ranges()[k];
+    const auto                 &range = points.ranges()[k];
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
-        const double *       gradients = points.support(p) + n;
+        const double        *gradients = points.support(p) + n;
         const Tensor<2, dim> grad_u =
           displacement_gradient<dim>(n, system.u, gradients);
-        points.respond(
-          p, grad_u, system.matrix != nullptr, deformation, response, new_history);
+        points.respond(p,
+                       grad_u,
+                       system.matrix != nullptr,
+                       deformation,
+                       response,
+                       new_history);
         const bool finite = !points.material(p).small_strain();
         if (finite)
           {
@@ -244,7 +251,7 @@ namespace Impoint
   template <int dim>
   template <int n_static>
   void InternalForce<dim>::add_constant(const unsigned int k,
-                                        CellSystem &       system) const
+                                        CellSystem        &system) const
   {
     constexpr int size = array_size<n_static>;
     const int     n    = n_static > 0 ? n_static : system.n;
@@ -254,7 +261,7 @@ namespace Impoint
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
     double                      new_history[64];
-    const auto &                range = points.ranges()[k];
+    const auto                 &range = points.ranges()[k];
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
         const double *gradients = points.support(p) + n;

@@ -5,12 +5,12 @@
 //   assembly [repetitions]
 // Exits with 1 if a ratio misses its goal or the kernels disagree.
 
-#include "box.h"
-
 #include <deal.II/base/mpi.h>
 
 #include <cstdio>
 #include <cstdlib>
+
+#include "box.h"
 
 // The bare kernel with all it needs next to each other in memory.
 template <int dim>
@@ -51,7 +51,8 @@ public:
     return sum;
   }
 
-  void integrate(const unsigned int begin, const unsigned int end, Matrix &K) const
+  void
+  integrate(const unsigned int begin, const unsigned int end, Matrix &K) const
   {
     K.fill(0.);
     for (unsigned int p = begin; p < end; ++p)
@@ -65,8 +66,8 @@ public:
                 {
                   DB[k][j] = 0;
                   for (int l = 0; l < dim; ++l)
-                    DB[k][j] += D[k * n_v + Voigt<dim>::position(j, l)] *
-                                G[b * dim + l];
+                    DB[k][j] +=
+                      D[k * n_v + Voigt<dim>::position(j, l)] * G[b * dim + l];
                   DB[k][j] *= volumes[p];
                 }
             for (int a = 0; a <= b; ++a)
@@ -94,8 +95,8 @@ double difference(const Box<dim> &box, const BareKernel<dim> &bare)
 {
   const InternalForce<dim>         term(*box.points);
   typename BareKernel<dim>::Matrix K, full;
-  constexpr unsigned int           n = BareKernel<dim>::n;
-  std::array<double, n * dim>      u = {}, residual;
+  constexpr unsigned int           n     = BareKernel<dim>::n;
+  std::array<double, n *dim>       u     = {}, residual;
   double                           worst = 0, largest = 0;
   for (unsigned int k = 0; k < box.active.n_cells(); ++k)
     {
@@ -109,10 +110,10 @@ double difference(const Box<dim> &box, const BareKernel<dim> &bare)
         for (unsigned int b = 0; b < n; ++b)
           for (unsigned int e = 0; e < dim * dim; ++e)
             {
-              const unsigned int turned = e % dim * dim + e / dim;
-              const double       expected =
-                a <= b ? K[(a * n + b) * dim * dim + e] :
-                         K[(b * n + a) * dim * dim + turned];
+              const unsigned int turned   = e % dim * dim + e / dim;
+              const double       expected = a <= b ?
+                                              K[(a * n + b) * dim * dim + e] :
+                                              K[(b * n + a) * dim * dim + turned];
               largest = std::max(largest, std::abs(expected));
               worst   = std::max(worst,
                                std::abs(expected -
@@ -128,7 +129,7 @@ bool compare(const unsigned int cells, const unsigned int repetitions)
   Box<dim>              linear(cells, "linear elastic");
   Box<dim>              neo_hookean(cells, "neo-Hookean");
   const BareKernel<dim> bare(linear);
-  const auto &          points = *linear.points;
+  const auto           &points = *linear.points;
   std::vector<double>   support(linear.basis.support_size(0));
   double                sink = 0;
 
@@ -144,10 +145,10 @@ bool compare(const unsigned int cells, const unsigned int repetitions)
         for (const auto &range : points.ranges())
           for (unsigned int p = range.begin; p < range.end; ++p)
             {
-              linear.basis.evaluate(range.cell,
-                                    linear.grid.to_reference(
-                                      range.cell, points.position(p)),
-                                    support.data());
+              linear.basis.evaluate(
+                range.cell,
+                linear.grid.to_reference(range.cell, points.position(p)),
+                support.data());
               sink += support[0];
             }
       });
@@ -157,9 +158,9 @@ bool compare(const unsigned int cells, const unsigned int repetitions)
       evaluate(neo_hookean_residual, neo_hookean, false);
     }
 
-  const double unlike = std::max(difference(linear, bare),
-                                 difference(neo_hookean, bare));
-  const auto   print  = [&](const char *what, const double seconds) {
+  const double unlike =
+    std::max(difference(linear, bare), difference(neo_hookean, bare));
+  const auto print = [&](const char *what, const double seconds) {
     std::printf("  %-30s %8.2f ms %7.0f ns/point %6.2f\n",
                 what,
                 1e3 * seconds,
@@ -176,12 +177,10 @@ bool compare(const unsigned int cells, const unsigned int repetitions)
   print("shape values", shapes.seconds);
   print("linear elastic, residual", linear_residual.seconds);
   print("neo-Hookean, residual", neo_hookean_residual.seconds);
-  const bool fast =
-    print("linear elastic, tangent",
-          shapes.seconds + linear_tangent.seconds) <= 2.5;
-  const bool faster =
-    print("neo-Hookean, tangent",
-          shapes.seconds + neo_hookean_tangent.seconds) <= 4;
+  const bool fast   = print("linear elastic, tangent",
+                          shapes.seconds + linear_tangent.seconds) <= 2.5;
+  const bool faster = print("neo-Hookean, tangent",
+                            shapes.seconds + neo_hookean_tangent.seconds) <= 4;
   std::printf("  goals 2.5 and 4: %s; largest difference of cell matrices "
               "%.1e\n",
               fast && faster ? "met" : "missed",

@@ -78,10 +78,10 @@ struct Box
   static std::vector<std::string> entries(const unsigned int cells,
                                           const std::string &model)
   {
-    const std::string n = std::to_string(cells);
-    const std::string box =
-      dim == 2 ? n + ", " + n + " : 0, 0 : 1, 1" :
-                 n + ", " + n + ", " + n + " : 0, 0, 0 : 1, 1, 1";
+    const std::string n    = std::to_string(cells);
+    const std::string box  = dim == 2 ?
+                               n + ", " + n + " : 0, 0 : 1, 1" :
+                               n + ", " + n + ", " + n + " : 0, 0, 0 : 1, 1, 1";
     const std::string body = "Bodies/box/";
     return {"Dimension = " + std::to_string(dim),
             "Grid/Generator = subdivided_hyper_rectangle",

@@ -27,8 +27,12 @@ def main():
     linear = run_scene("quickstart.prm", "linear", LINEAR)["counts"]
     show_and_compare("linear elasticity", linear,
                      {"steps": STEPS, "halved steps": 0, "tangents": STEPS,
-                      "factorisations": STEPS, "newton iterations": STEPS,
-                      "patterns": 1, "projections": 0, "sorts": 0})
+                      "newton iterations": STEPS, "patterns": 1,
+                      "projections": 0, "sorts": 0})
+    # One a step, or fewer: the factor of an earlier step serves the next.
+    expect(1 <= linear["factorisations"] <= STEPS,
+           f"{linear['factorisations']} factorisations in {STEPS} steps")
+    print("at most one factorisation a step: yes")
 
     large = run_scene("quickstart.prm", "large", [*LINEAR, *LARGE])["counts"]
     show_and_compare("a grid 100 times larger", large, linear)

@@ -13,8 +13,7 @@ namespace Impoint
     std::vector<std::size_t>  row_start; // n_rows + 1
     std::vector<unsigned int> columns;
 
-    unsigned int
-    n_rows() const
+    unsigned int n_rows() const
     {
       return row_start.empty() ? 0 : row_start.size() - 1;
     }

@@ -11,12 +11,12 @@ namespace Impoint
    */
   struct Counters
   {
-    std::size_t steps             = 0;
-    std::size_t halved_steps      = 0;
-    std::size_t sorts             = 0; // steps in which some point changed its cell
-    std::size_t patterns          = 0; // sparsity patterns built
-    std::size_t tangents          = 0;
-    std::size_t residuals         = 0;
+    std::size_t steps        = 0;
+    std::size_t halved_steps = 0;
+    std::size_t sorts        = 0; // steps in which some point changed its cell
+    std::size_t patterns     = 0; // sparsity patterns built
+    std::size_t tangents     = 0;
+    std::size_t residuals    = 0;
     std::size_t factorisations    = 0; // or preconditioners set up
     std::size_t linear_iterations = 0;
     std::size_t newton_iterations = 0;

@@ -17,8 +17,8 @@ namespace Impoint
     InputError(const std::string &wrong,
                const std::string &place,
                const std::string &advice)
-      : std::runtime_error("Error: " + wrong + "\n  in " + place +
-                           "\n  " + advice)
+      : std::runtime_error("Error: " + wrong + "\n  in " + place + "\n  " +
+                           advice)
     {}
   };
 

@@ -15,8 +15,9 @@ namespace Impoint
   /**
    * A vector-valued (or scalar) function of place and time, written in a scene
    * with the variables x, y, (z,) t and the constants pi, e; components are
-   * separated by ';'. An empty text is zero. One that names no variable is constant, one that does not
-   * name t is steady, and both are known to be so, to be skipped.
+   * separated by ';'. An empty text is zero. One that names no variable is
+   * constant, one that does not name t is steady, and both are known to be so,
+   * to be skipped.
    */
   template <int dim>
   class Expression

@@ -123,10 +123,10 @@ namespace Impoint
     bool is_assigned(const std::string &path) const;
     void print(std::ostream &out, const bool as_template) const;
 
-    std::string              scene_file;
-    EntryHandler             prm;
-    Assignments              assignments;
-    std::vector<std::string> path_entries;
+    std::string                        scene_file;
+    EntryHandler                       prm;
+    Assignments                        assignments;
+    std::vector<std::string>           path_entries;
     std::map<std::string, std::string> defaults; // known after apply()
   };
 

@@ -21,11 +21,11 @@ namespace Impoint
           .count();
     }
 
-    ScopedSeconds(const ScopedSeconds &) = delete;
+    ScopedSeconds(const ScopedSeconds &)            = delete;
     ScopedSeconds &operator=(const ScopedSeconds &) = delete;
 
   private:
-    double &                                    accumulator;
+    double                                     &accumulator;
     const std::chrono::steady_clock::time_point start;
   };
 } // namespace Impoint

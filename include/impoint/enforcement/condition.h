@@ -32,15 +32,15 @@ namespace Impoint
 
     std::string name, section;
 
-    std::string constraint  = "fixed"; // fixed|slip|roller|traction
-    std::string components;            // of a roller
-    std::string enforcement = "projected penalty";
-    double      factor      = 1e4;
-    std::string factor_unit = "E/h"; // E/h|Pa/m
-    bool        small_cut_rule = false;
-    std::string normals        = "automatic"; // automatic|particle|nodal
-    std::string value_kind     = "displacement"; // displacement|velocity
-    std::string motion         = "with the value";
+    std::string         constraint = "fixed"; // fixed|slip|roller|traction
+    std::string         components;           // of a roller
+    std::string         enforcement    = "projected penalty";
+    double              factor         = 1e4;
+    std::string         factor_unit    = "E/h"; // E/h|Pa/m
+    bool                small_cut_rule = false;
+    std::string         normals    = "automatic";    // automatic|particle|nodal
+    std::string         value_kind = "displacement"; // displacement|velocity
+    std::string         motion     = "with the value";
     std::vector<double> rotation_centre, rotation_axis;
     double              from  = std::numeric_limits<double>::lowest();
     double              until = std::numeric_limits<double>::max();
@@ -57,11 +57,17 @@ namespace Impoint
   class PrescribedMotion
   {
   public:
-    PrescribedMotion(const ParameterFile &      file,
+    PrescribedMotion(const ParameterFile       &file,
                      const ConditionParameters &parameters);
 
-    bool is_zero() const { return value.is_zero() && angle.is_zero(); }
-    bool rotates() const { return !angle.is_zero(); }
+    bool is_zero() const
+    {
+      return value.is_zero() && angle.is_zero();
+    }
+    bool rotates() const
+    {
+      return !angle.is_zero();
+    }
 
     /** Displacement from time @p start to @p end of what is at @p x at the
      * start, and was at @p first when the run began. */

@@ -11,19 +11,29 @@ namespace Impoint
   namespace Enforcement
   {
     /**
-     * A node of the grid that boundaries hold: in the frame of the rows of
-     * Q, the components in `held` have the step's displacement `value` (P Eqs.
-     * 29-38). `reaction` is what the boundary gives to each boundary.
+     * A node of the grid that boundaries hold: along the first n_held of the
+     * orthonormal directions it has the step's displacement `value` (P Eqs.
+     * 29-38). Each direction belongs to the boundary that holds it first.
      */
     template <int dim>
     struct HeldNode
     {
-      unsigned int                 node = 0; // compact
-      Tensor<2, dim>               Q;
-      std::array<bool, dim>        held = {};
-      Tensor<1, dim>               value;
-      unsigned int                 boundary = 0; // the first that holds it
-      bool                         rotated  = false;
+      unsigned int                    node   = 0; // compact
+      unsigned int                    n_held = 0;
+      std::array<Tensor<1, dim>, dim> direction;
+      std::array<double, dim>         value    = {};
+      std::array<unsigned int, dim>   boundary = {};
+
+      /** Holds it along @p wanted, of any length: what the directions already
+       * held say of that stays as it is. */
+      void hold(const Tensor<1, dim> &wanted,
+                const double          amount, // along the unit vector
+                const unsigned int    boundary_number);
+
+      /** Projects onto what the node is free to do. */
+      Tensor<2, dim> projector() const;
+
+      Tensor<1, dim> prescribed() const;
     };
 
     /** All boundaries that coincide with the grid's: fixed, roller, slip. */
@@ -35,11 +45,14 @@ namespace Impoint
 
       /** Adds the part of the grid's boundary with @p boundary_id. Collective;
        * throws InputError if the grid has no such part. */
-      void add_boundary(const ParameterFile &      file,
+      void add_boundary(const ParameterFile       &file,
                         const ConditionParameters &parameters,
                         const types::boundary_id   boundary_id);
 
-      unsigned int n_boundaries() const { return boundaries.size(); }
+      unsigned int n_boundaries() const
+      {
+        return boundaries.size();
+      }
       const std::string &name(const unsigned int i) const
       {
         return boundaries[i].parameters.name;
@@ -64,12 +77,12 @@ namespace Impoint
         std::vector<std::pair<unsigned int, Tensor<1, dim>>> nodes;
       };
 
-      void hold(const Boundary &      boundary,
+      void hold(const unsigned int    boundary_number,
                 const Tensor<1, dim> &normal,
                 const Tensor<1, dim> &value,
-                HeldNode<dim> &       node) const;
+                HeldNode<dim>        &node) const;
 
-      const Basis<dim> &    basis;
+      const Basis<dim>     &basis;
       std::vector<Boundary> boundaries;
     };
   } // namespace Enforcement

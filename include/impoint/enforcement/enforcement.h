@@ -18,7 +18,7 @@ namespace Impoint
     struct Step
     {
       double                  start = 0, end = 0; // time [s]
-      double                  young = 0;          // [Pa], the stiffest material
+      double                  young  = 0;         // [Pa], the stiffest material
       const ActiveNodes<dim> *active = nullptr;
     };
 
@@ -39,17 +39,29 @@ namespace Impoint
     class Method
     {
     public:
-      Method(const ConditionParameters &             parameters,
+      Method(const ConditionParameters              &parameters,
              PrescribedMotion<dim>                   motion,
              std::unique_ptr<BoundaryParticles<dim>> particles);
       virtual ~Method() = default;
 
-      const BoundaryParticles<dim> &  particles() const { return *boundary; }
-      BoundaryParticles<dim> &        particles() { return *boundary; }
-      const ConditionParameters &     parameters() const { return condition; }
+      const BoundaryParticles<dim> &particles() const
+      {
+        return *boundary;
+      }
+      BoundaryParticles<dim> &particles()
+      {
+        return *boundary;
+      }
+      const ConditionParameters &parameters() const
+      {
+        return condition;
+      }
 
       /** Whether the condition acts in the step. */
-      bool is_active() const { return active_now; }
+      bool is_active() const
+      {
+        return active_now;
+      }
 
       /** Prepares a step: the wall's increments, normals. Collective. */
       virtual void begin_step(const Step<dim> &step);
@@ -57,14 +69,20 @@ namespace Impoint
       /** Adds the particles of range @p r (PointCloud::ranges()). */
       virtual void add(const unsigned int r,
                        const Strength     strength,
-                       CellSystem &       system) const = 0;
+                       CellSystem        &system) const = 0;
 
       /** Whether add() with a matrix makes the tangent stiffer, so that the
        * preconditioner has to know these cells. */
-      virtual bool constrains() const { return true; }
+      virtual bool constrains() const
+      {
+        return true;
+      }
 
       /** Whether multipliers() changes anything: one more iteration. */
-      virtual bool augmented() const { return false; }
+      virtual bool augmented() const
+      {
+        return false;
+      }
 
       /** Multipliers from the gaps of a cell's displacements. */
       virtual void update_multipliers(const unsigned int r, const double *u);
@@ -76,7 +94,7 @@ namespace Impoint
       /** Where the particles will be at the end of the step: of the particles
        * in range @p r, with the cell's displacements @p u. */
       void new_places(const unsigned int       r,
-                      const double *           u,
+                      const double            *u,
                       std::vector<Point<dim>> &places) const;
 
       /** Moves the particles to @p places, which PointCloud::find() was asked
@@ -90,7 +108,7 @@ namespace Impoint
       /** Displacement of the material at particle @p b. */
       Tensor<1, dim> displacement(const unsigned int b,
                                   const unsigned int n,
-                                  const double *     u) const;
+                                  const double      *u) const;
 
       ConditionParameters                     condition;
       PrescribedMotion<dim>                   motion;
@@ -102,8 +120,8 @@ namespace Impoint
     /** The method named by @p parameters. Throws InputError. */
     template <int dim>
     std::unique_ptr<Method<dim>>
-    create(const ParameterFile &                   file,
-           const ConditionParameters &             parameters,
+    create(const ParameterFile                    &file,
+           const ConditionParameters              &parameters,
            std::unique_ptr<BoundaryParticles<dim>> particles);
   } // namespace Enforcement
 } // namespace Impoint

@@ -17,7 +17,7 @@ namespace Impoint
      * with one multiplier a cell and does not lock.
      *
      * Where beta exceeds 1e8 E/h the same traction is found by augmentation at
-     * gamma = 1e6 E/h with compliance 1/beta (perturbed Lagrangian),
+     * gamma = 1e8 E/h with compliance 1/beta (perturbed Lagrangian),
      *   t = (lambda + gamma g) / (1 + gamma / beta),  lambda <- t,
      * whose fixed point is t = beta g: the condition of the matrix stays that
      * of gamma, and no round-off of beta erases the stiffness.
@@ -26,7 +26,7 @@ namespace Impoint
     class Penalty : public Method<dim>
     {
     public:
-      Penalty(const ConditionParameters &             parameters,
+      Penalty(const ConditionParameters              &parameters,
               PrescribedMotion<dim>                   motion,
               std::unique_ptr<BoundaryParticles<dim>> particles,
               const bool                              projected);
@@ -35,7 +35,7 @@ namespace Impoint
       bool augmented() const override;
       void add(const unsigned int r,
                const Strength     strength,
-               CellSystem &       system) const override;
+               CellSystem        &system) const override;
       void update_multipliers(const unsigned int r, const double *u) override;
       void end_step(const unsigned int r, const double *u) override;
 
@@ -58,17 +58,14 @@ namespace Impoint
       void for_patches(const unsigned int r, const Function &function) const;
 
       /** Gap with the displacements @p u of the cell's @p n nodes. */
-      Tensor<1, dim> gap(const Patch &      patch,
-                         const unsigned int n,
-                         const double *     u) const;
+      Tensor<1, dim>
+      gap(const Patch &patch, const unsigned int n, const double *u) const;
 
-      Tensor<1, dim> traction(const unsigned int r,
-                              const Patch &      patch,
-                              const double *     u) const;
+      Tensor<1, dim>
+      traction(const unsigned int r, const Patch &patch, const double *u) const;
 
-      void shape_values(const unsigned int b,
-                        const unsigned int n,
-                        double *           N) const;
+      void
+      shape_values(const unsigned int b, const unsigned int n, double *N) const;
 
       /** Direction in which node @p a of the cell is held at particle @p b. */
       Tensor<1, dim> direction(const unsigned int b,
@@ -76,8 +73,10 @@ namespace Impoint
 
       void average_normals();
 
-      double beta(const unsigned int r) const;  // [Pa/m]
-      double gamma(const unsigned int r) const; // [Pa/m]
+      double unit(const unsigned int r) const; // E/h [Pa/m]
+      double beta(const unsigned int r) const; // [Pa/m]
+      bool   is_augmented(const unsigned int r) const;
+      double gamma(const unsigned int r, const Patch &patch) const; // [Pa/m]
 
       const bool                  projected, slip;
       bool                        nodal_normals = false;

@@ -13,16 +13,19 @@ namespace Impoint
     class Traction : public Method<dim>
     {
     public:
-      Traction(const ConditionParameters &             parameters,
+      Traction(const ConditionParameters              &parameters,
                PrescribedMotion<dim>                   motion,
                std::unique_ptr<BoundaryParticles<dim>> particles,
                Expression<dim>                         traction);
 
       void add(const unsigned int r,
                const Strength     strength,
-               CellSystem &       system) const override;
+               CellSystem        &system) const override;
       void end_step(const unsigned int r, const double *u) override;
-      bool constrains() const override { return false; }
+      bool constrains() const override
+      {
+        return false;
+      }
 
     private:
       Tensor<1, dim> force(const unsigned int b) const;

@@ -36,12 +36,24 @@ namespace Impoint
 
     /** Active cells: the material cells in their order, then boundary cells
      * without material. */
-    unsigned int n_cells() const { return cells.size(); }
-    unsigned int n_material_cells() const { return n_material; }
-    unsigned int cell(const unsigned int k) const { return cells[k]; }
+    unsigned int n_cells() const
+    {
+      return cells.size();
+    }
+    unsigned int n_material_cells() const
+    {
+      return n_material;
+    }
+    unsigned int cell(const unsigned int k) const
+    {
+      return cells[k];
+    }
 
     /** Place of the grid's cell @p c among the active ones, or nowhere. */
-    unsigned int position(const unsigned int c) const { return positions[c]; }
+    unsigned int position(const unsigned int c) const
+    {
+      return positions[c];
+    }
 
     /** Compact nodes of active cell @p k. */
     ArrayView<const unsigned int> nodes(const unsigned int k) const
@@ -50,11 +62,20 @@ namespace Impoint
                                            first_node[k + 1] - first_node[k]);
     }
 
-    unsigned int n_nodes() const { return grid_nodes.size(); }
-    unsigned int n_owned_nodes() const { return n_owned; }
+    unsigned int n_nodes() const
+    {
+      return grid_nodes.size();
+    }
+    unsigned int n_owned_nodes() const
+    {
+      return n_owned;
+    }
 
     /** Number of the basis' node behind compact node @p i. */
-    unsigned int grid_node(const unsigned int i) const { return grid_nodes[i]; }
+    unsigned int grid_node(const unsigned int i) const
+    {
+      return grid_nodes[i];
+    }
 
     /** Compact number of the basis' @p node, or nowhere. */
     unsigned int compact(const unsigned int node) const
@@ -63,7 +84,10 @@ namespace Impoint
     }
 
     /** Whether some material cell of any rank holds compact node @p i. */
-    bool has_material(const unsigned int i) const { return with_material[i]; }
+    bool has_material(const unsigned int i) const
+    {
+      return with_material[i];
+    }
 
     /** Number of compact node @p i among all ranks' active nodes. */
     types::global_dof_index global_number(const unsigned int i) const
@@ -72,19 +96,20 @@ namespace Impoint
     }
 
     /** Layout of distributed vectors of dim unknowns a node, and of one. */
-    const std::shared_ptr<const Utilities::MPI::Partitioner> &
-    unknowns() const
+    const std::shared_ptr<const Utilities::MPI::Partitioner> &unknowns() const
     {
       return unknown_partitioner;
     }
-    const std::shared_ptr<const Utilities::MPI::Partitioner> &
-    scalars() const
+    const std::shared_ptr<const Utilities::MPI::Partitioner> &scalars() const
     {
       return node_partitioner;
     }
 
     /** Couplings of this rank's active cells (rows of ghosts included). */
-    const BlockPattern &pattern() const { return block_pattern; }
+    const BlockPattern &pattern() const
+    {
+      return block_pattern;
+    }
 
     /** For active cell @p k with n nodes: block (a, b) of its matrix goes to
      * block scatter(k)[a * n + b] of the pattern. */
@@ -93,7 +118,10 @@ namespace Impoint
       return scatter_map.data() + first_block[k];
     }
 
-    const Basis<dim> &basis() const { return functions; }
+    const Basis<dim> &basis() const
+    {
+      return functions;
+    }
 
   private:
     void activate(const std::vector<unsigned int> &material_cells,
@@ -104,16 +132,16 @@ namespace Impoint
     shared_marks(const std::vector<unsigned int> &marked,
                  const std::vector<unsigned int> &wanted) const;
 
-    const Basis<dim> &        functions;
+    const Basis<dim>         &functions;
     std::vector<unsigned int> last_material, last_boundary;
     bool                      fresh = true;
 
-    std::vector<unsigned int> cells;
-    unsigned int              n_material = 0;
-    std::vector<unsigned int> positions;  // per cell of the grid
-    std::vector<unsigned int> compact_of; // per node of the basis
-    std::vector<unsigned int> grid_nodes;
-    std::vector<char>         with_material;
+    std::vector<unsigned int>            cells;
+    unsigned int                         n_material = 0;
+    std::vector<unsigned int>            positions;  // per cell of the grid
+    std::vector<unsigned int>            compact_of; // per node of the basis
+    std::vector<unsigned int>            grid_nodes;
+    std::vector<char>                    with_material;
     std::vector<types::global_dof_index> global_numbers;
     unsigned int                         n_owned = 0;
     std::vector<std::size_t>  first_node, first_block; // per active cell

@@ -5,9 +5,7 @@
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
-
 #include <deal.II/fe/mapping.h>
-
 #include <deal.II/grid/tria.h>
 
 #include <array>
@@ -45,23 +43,50 @@ namespace Impoint
 
     using CellIterator = typename Triangulation<dim>::active_cell_iterator;
 
-    BackgroundGrid(const ParameterFile & file,
+    BackgroundGrid(const ParameterFile  &file,
                    const GridParameters &parameters,
                    const MPI_Comm        communicator);
 
-    const Triangulation<dim> &triangulation() const { return *mesh; }
-    const Mapping<dim> &      mapping() const { return *map; }
-    MPI_Comm                  communicator() const { return comm; }
-    bool                      simplicial() const { return is_simplicial; }
+    const Triangulation<dim> &triangulation() const
+    {
+      return *mesh;
+    }
+    const Mapping<dim> &mapping() const
+    {
+      return *map;
+    }
+    MPI_Comm communicator() const
+    {
+      return comm;
+    }
+    bool simplicial() const
+    {
+      return is_simplicial;
+    }
 
-    unsigned int n_cells() const { return iterators.size(); }
-    CellIterator cell(const unsigned int c) const { return iterators[c]; }
-    bool         is_owned(const unsigned int c) const { return kind[c] == own; }
+    unsigned int n_cells() const
+    {
+      return iterators.size();
+    }
+    CellIterator cell(const unsigned int c) const
+    {
+      return iterators[c];
+    }
+    bool is_owned(const unsigned int c) const
+    {
+      return kind[c] == own;
+    }
 
     /** Whether this rank knows the cell (it owns it or it is a ghost). */
-    bool is_known(const unsigned int c) const { return kind[c] != artificial; }
+    bool is_known(const unsigned int c) const
+    {
+      return kind[c] != artificial;
+    }
 
-    bool is_affine(const unsigned int c) const { return affine[c]; }
+    bool is_affine(const unsigned int c) const
+    {
+      return affine[c];
+    }
 
     /** Inverse of the Jacobian of an affine cell. */
     const Tensor<2, dim> &inverse_jacobian_of(const unsigned int c) const
@@ -82,25 +107,30 @@ namespace Impoint
     double size(const unsigned int c) const;
 
     /** Smallest h of the whole grid, all ranks. */
-    double smallest_size() const { return h_min; }
+    double smallest_size() const
+    {
+      return h_min;
+    }
 
     /** Box around the whole grid, all ranks. */
-    const BoundingBox<dim> &box() const { return bounding_box; }
+    const BoundingBox<dim> &box() const
+    {
+      return bounding_box;
+    }
 
     std::vector<Point<dim>>     vertices(const unsigned int c) const;
     std::vector<HalfSpace<dim>> faces(const unsigned int c) const;
 
     /** Cells (owned and ghost) whose bounding box meets the given one, in
      * increasing order. */
-    std::vector<unsigned int>
-    cells_near(const Point<dim> &lower, const Point<dim> &upper) const;
+    std::vector<unsigned int> cells_near(const Point<dim> &lower,
+                                         const Point<dim> &upper) const;
 
     /** Reference coordinates of @p x in cell @p c (anywhere in space). */
     Point<dim> to_reference(const unsigned int c, const Point<dim> &x) const;
 
     /** Whether reference coordinates lie in the cell, up to round-off. */
-    bool is_inside(const Point<dim> & xi,
-                   const double tolerance = 1e-12) const
+    bool is_inside(const Point<dim> &xi, const double tolerance = 1e-12) const
     {
       return outside_by(xi) <= tolerance;
     }
@@ -114,7 +144,8 @@ namespace Impoint
      * not depend on the number of ranks. */
     unsigned int find(const Point<dim> &x, Point<dim> &xi) const;
 
-    /** Frame of a Cartesian grid (possibly rotated): x = origin + axes * (h i). */
+    /** Frame of a Cartesian grid (possibly rotated): x = origin + axes * (h i).
+     */
     struct Lattice
     {
       bool           exists = false;
@@ -122,7 +153,10 @@ namespace Impoint
       Tensor<2, dim> axes; // columns: unit vectors along the grid lines
       Tensor<1, dim> spacing;
     };
-    const Lattice &lattice() const { return frame; }
+    const Lattice &lattice() const
+    {
+      return frame;
+    }
 
   private:
     enum Kind : char
@@ -133,7 +167,7 @@ namespace Impoint
     };
     static constexpr unsigned int refined = numbers::invalid_unsigned_int - 1;
 
-    void   make_triangulation(const ParameterFile & file,
+    void   make_triangulation(const ParameterFile  &file,
                               const GridParameters &parameters);
     void   refine(const ParameterFile &file, const GridParameters &parameters);
     void   build_cells();
@@ -141,10 +175,12 @@ namespace Impoint
     void   set_affine_map(const unsigned int c);
     void   detect_lattice();
     double outside_by(const Point<dim> &xi) const;
-    void   order_faces(const Point<dim> &xi, std::array<unsigned int, 6> &faces,
-                       unsigned int &n_violated) const;
-    unsigned int next_cell(const unsigned int c, const unsigned int face,
-                           const Point<dim> &x) const;
+    void   order_faces(const Point<dim>            &xi,
+                       std::array<unsigned int, 6> &faces,
+                       unsigned int                &n_violated) const;
+    unsigned int next_cell(const unsigned int c,
+                           const unsigned int face,
+                           const Point<dim>  &x) const;
 
     MPI_Comm                            comm;
     std::unique_ptr<Triangulation<dim>> mesh;
@@ -153,14 +189,14 @@ namespace Impoint
     std::vector<CellIterator>           iterators;
     std::vector<Kind>                   kind;
     std::vector<char>                   affine;
-    std::vector<Point<dim>>             corner;           // of affine cells: vertex 0
+    std::vector<Point<dim>>             corner; // of affine cells: vertex 0
     std::vector<Tensor<2, dim>>         inverse_jacobian; // of affine cells
     std::vector<unsigned int>           neighbors;        // n_cells * max faces
-    std::vector<unsigned int>           opposite_face; // of a simplex's vertices
-    unsigned int                        n_faces = 0;
-    double                              h_min     = 0;
-    BoundingBox<dim>                    bounding_box;
-    Lattice                             frame;
+    std::vector<unsigned int> opposite_face; // of a simplex's vertices
+    unsigned int              n_faces = 0;
+    double                    h_min   = 0;
+    BoundingBox<dim>          bounding_box;
+    Lattice                   frame;
 
     struct Tree; // r-tree of the cells' boxes
     std::shared_ptr<Tree> tree;

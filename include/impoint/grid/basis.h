@@ -27,9 +27,15 @@ namespace Impoint
     explicit Basis(const BackgroundGrid<dim> &grid);
     ~Basis();
 
-    const BackgroundGrid<dim> &grid() const { return background; }
+    const BackgroundGrid<dim> &grid() const
+    {
+      return background;
+    }
 
-    unsigned int n_nodes() const { return points.size(); }
+    unsigned int n_nodes() const
+    {
+      return points.size();
+    }
 
     /** Nodes of all functions that do not vanish in cell @p c. */
     ArrayView<const unsigned int> nodes(const unsigned int c) const
@@ -59,8 +65,8 @@ namespace Impoint
 
     /** The same through FEValues: any cell, an oracle in tests. */
     void evaluate_by_fe_values(const unsigned int c,
-                               const Point<dim> & xi,
-                               double *           support) const;
+                               const Point<dim>  &xi,
+                               double            *support) const;
 
     types::global_dof_index global_index(const unsigned int node) const
     {
@@ -68,7 +74,10 @@ namespace Impoint
     }
 
     /** The rank that numbers the node. */
-    unsigned int owner(const unsigned int node) const { return owners[node]; }
+    unsigned int owner(const unsigned int node) const
+    {
+      return owners[node];
+    }
 
     const Point<dim> &point(const unsigned int node) const
     {
@@ -84,7 +93,10 @@ namespace Impoint
     std::vector<std::pair<unsigned int, Tensor<1, dim>>>
     boundary_nodes(const types::boundary_id boundary_id) const;
 
-    std::string name() const { return "linear"; }
+    std::string name() const
+    {
+      return "linear";
+    }
 
   private:
     struct Elements; // DoFHandler and what goes with it
@@ -92,7 +104,7 @@ namespace Impoint
     void number_nodes();
     void list_cell_nodes();
 
-    const BackgroundGrid<dim> &          background;
+    const BackgroundGrid<dim>           &background;
     std::unique_ptr<Elements>            elements;
     std::vector<types::global_dof_index> global_indices; // increasing
     std::vector<unsigned int>            owners;

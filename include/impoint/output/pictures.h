@@ -19,19 +19,18 @@ namespace Impoint
 
     /** Collective. @p u is the displacement of the last step on the active
      * nodes, or empty before the first. */
-    void
-    write(const double                                          time,
-          const MaterialPoints<dim> &                           points,
-          const std::vector<const BoundaryParticles<dim> *> &   boundaries,
-          const ActiveNodes<dim> &                              active,
-          const LinearAlgebra::distributed::Vector<double> &    u);
+    void write(const double                                       time,
+               const MaterialPoints<dim>                         &points,
+               const std::vector<const BoundaryParticles<dim> *> &boundaries,
+               const ActiveNodes<dim>                            &active,
+               const LinearAlgebra::distributed::Vector<double>  &u);
 
   private:
     PointFields<dim> material(const MaterialPoints<dim> &points) const;
     PointFields<dim> boundary(
       const std::vector<const BoundaryParticles<dim> *> &boundaries) const;
     GridFields<dim>
-    grid(const ActiveNodes<dim> &                          active,
+    grid(const ActiveNodes<dim>                           &active,
          const LinearAlgebra::distributed::Vector<double> &u) const;
 
     CollectionWriter<dim> points_writer, boundary_writer, grid_writer;

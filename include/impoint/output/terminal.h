@@ -30,10 +30,10 @@ namespace Impoint
    * What the user reads while the program runs. Rank 0 alone prints; no member
    * is collective.
    *
-   * "silent" prints failures only; "results" the table of results; "normal" a header, a line a step if they
-   * are few, else a progress bar (on a terminal) or every 5 % a line (in a
-   * file), and the results; "talkative" each step, details, and where the time
-   * went.
+   * "silent" prints failures only; "results" the table of results; "normal" a
+   * header, a line a step if they are few, else a progress bar (on a terminal)
+   * or every 5 % a line (in a file), and the results; "talkative" each step,
+   * details, and where the time went.
    */
   class Terminal
   {
@@ -85,13 +85,13 @@ namespace Impoint
 
     std::ostream &out, &errors;
     // false but on rank 0
-    bool          results = false, normal = false, talkative = false;
-    bool          on_root;
-    bool          is_terminal;
-    bool          bar_is_shown  = false;
-    bool          columns_shown = false; // the head of the lines
-    Style         style         = Style::undecided;
-    double        next_fraction = 0; // of sparse lines
+    bool   results = false, normal = false, talkative = false;
+    bool   on_root;
+    bool   is_terminal;
+    bool   bar_is_shown  = false;
+    bool   columns_shown = false; // the head of the lines
+    Style  style         = Style::undecided;
+    double next_fraction = 0; // of sparse lines
     std::chrono::steady_clock::time_point start, last_bar;
   };
 } // namespace Impoint

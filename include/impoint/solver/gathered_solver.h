@@ -20,12 +20,12 @@ namespace Impoint
     using Vector = LinearAlgebra::distributed::Vector<double>;
 
     GatheredSolver(const LinearSolverParameters &parameters,
-                   Counters &                    counters,
+                   Counters                     &counters,
                    const MPI_Comm                communicator);
 
     /** All collective; @p local is this rank's part, its rows the active nodes
      * in their compact numbering. */
-    void new_pattern(const ActiveNodes<dim> &  active,
+    void new_pattern(const ActiveNodes<dim>   &active,
                      const LinearProblem<dim> &local);
     bool iterative(const ActiveNodes<dim> &active) const;
     void new_matrix(const LinearProblem<dim> &local);
@@ -48,7 +48,7 @@ namespace Impoint
     MPI_Comm                comm;
     bool                    alone, on_root;
     LinearSolver<dim>       solver;
-    const ActiveNodes<dim> *active = nullptr;
+    const ActiveNodes<dim> *active     = nullptr;
     std::size_t             n_unknowns = 0;
 
     // rank 0 of several:

@@ -1,8 +1,8 @@
 #ifndef impoint_solver_inertia_h
 #define impoint_solver_inertia_h
 
-#include <impoint/particles/material_points.h>
 #include <impoint/grid/active_nodes.h>
+#include <impoint/particles/material_points.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 
@@ -16,15 +16,18 @@ namespace Impoint
     void declare(ParameterFile &file);
     void check(const ParameterFile &file) const;
 
-    std::string  kind       = "quasi-static"; // quasi-static|dynamic
-    double       end        = 1;
-    double       step       = 1;
-    double       smallest   = 1e-3; // of the given step
-    double       beta       = 0.25;
-    double       gamma      = 0.5;
-    std::string  mass       = "lumped"; // lumped|consistent
-    std::string  initial    = "equilibrium"; // equilibrium|zero|expression
-    bool is_dynamic() const { return kind == "dynamic"; }
+    std::string kind     = "quasi-static"; // quasi-static|dynamic
+    double      end      = 1;
+    double      step     = 1;
+    double      smallest = 1e-3; // of the given step
+    double      beta     = 0.25;
+    double      gamma    = 0.5;
+    std::string mass     = "lumped";      // lumped|consistent
+    std::string initial  = "equilibrium"; // equilibrium|zero|expression
+    bool        is_dynamic() const
+    {
+      return kind == "dynamic";
+    }
   };
 
   /**
@@ -40,14 +43,20 @@ namespace Impoint
     explicit Inertia(const TimeParameters &parameters);
 
     /** Projects the points' mass, momentum and inertia force. Collective. */
-    void project(const ActiveNodes<dim> &   active,
+    void project(const ActiveNodes<dim>    &active,
                  const MaterialPoints<dim> &points,
                  const double               time_step);
 
-    bool consistent() const { return is_consistent; }
+    bool consistent() const
+    {
+      return is_consistent;
+    }
 
     /** Factor alpha of the displacements in the acceleration. */
-    double alpha() const { return 1. / (beta * dt * dt); }
+    double alpha() const
+    {
+      return 1. / (beta * dt * dt);
+    }
 
     /** Acceleration of unknown @p i for a displacement @p u of it. */
     double acceleration(const unsigned int i, const double u) const
@@ -57,17 +66,30 @@ namespace Impoint
     }
 
     /** Velocity at the end of the step of a particle or node. */
-    double new_velocity(const double v, const double a_old, const double a_new) const
+    double
+    new_velocity(const double v, const double a_old, const double a_new) const
     {
       return v + dt * ((1. - gamma) * a_old + gamma * a_new);
     }
 
     /** Of active node @p i [kg]. */
-    double mass(const unsigned int i) const { return masses.local_element(i); }
+    double mass(const unsigned int i) const
+    {
+      return masses.local_element(i);
+    }
 
-    Vector &      nodal_accelerations() { return accelerations; }
-    const Vector &nodal_accelerations() const { return accelerations; }
-    const Vector &nodal_velocities() const { return velocities; }
+    Vector &nodal_accelerations()
+    {
+      return accelerations;
+    }
+    const Vector &nodal_accelerations() const
+    {
+      return accelerations;
+    }
+    const Vector &nodal_velocities() const
+    {
+      return velocities;
+    }
 
   private:
     double beta, gamma;

@@ -22,7 +22,7 @@ namespace Impoint
     void declare(ParameterFile &file);
 
     std::string  kind             = "automatic"; // automatic|direct|iterative
-    double       tolerance          = 1e-12;
+    double       tolerance        = 1e-12;
     unsigned int max_iterations   = 500;
     double       moderate         = 10.;  // enforcement in the V-cycle, E/h
     double       sliver           = 1e-2; // of the median diagonal

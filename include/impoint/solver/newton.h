@@ -31,17 +31,23 @@ namespace Impoint
   {
   public:
     Newton(const NewtonParameters &parameters,
-           NonlinearSystem<dim> &  system,
-           Counters &              counters);
+           NonlinearSystem<dim>   &system,
+           Counters               &counters);
 
     /** Finds the displacements of the step that the system was prepared for.
      * Throws StepFailed. Collective. */
     void solve(typename NonlinearSystem<dim>::Vector &u);
 
     /** Relative residuals of the last step: before each iteration, and last. */
-    const std::vector<double> &residuals() const { return history; }
+    const std::vector<double> &residuals() const
+    {
+      return history;
+    }
 
-    unsigned int iterations() const { return history.size() - 1; }
+    unsigned int iterations() const
+    {
+      return history.size() - 1;
+    }
 
   private:
     using Vector = typename NonlinearSystem<dim>::Vector;
@@ -53,8 +59,8 @@ namespace Impoint
     bool expects_convergence() const;
 
     const NewtonParameters parameters;
-    NonlinearSystem<dim> & system;
-    Counters &             counters;
+    NonlinearSystem<dim>  &system;
+    Counters              &counters;
     std::vector<double>    history;
     bool                   tangent_is_new = false; // with the last residual
   };

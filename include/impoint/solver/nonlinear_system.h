@@ -29,13 +29,13 @@ namespace Impoint
     using Vector  = LinearAlgebra::distributed::Vector<double>;
     using Methods = std::vector<std::unique_ptr<Enforcement::Method<dim>>>;
 
-    NonlinearSystem(const ActiveNodes<dim> &             active,
-                    const MaterialPoints<dim> &          points,
-                    Methods &                            methods,
-                    const Enforcement::Conforming<dim> & conforming,
-                    const LinearSolverParameters &       parameters,
-                    Counters &                           counters,
-                    Seconds &                            seconds);
+    NonlinearSystem(const ActiveNodes<dim>             &active,
+                    const MaterialPoints<dim>          &points,
+                    Methods                            &methods,
+                    const Enforcement::Conforming<dim> &conforming,
+                    const LinearSolverParameters       &parameters,
+                    Counters                           &counters,
+                    Seconds                            &seconds);
 
     /** Terms that act in material cells, added once. */
     void add_term(std::unique_ptr<Term<dim>> term);
@@ -50,7 +50,7 @@ namespace Impoint
      * displacements. @p inertia may be null. */
     void begin_step(const double        start,
                     const double        end,
-                    const Vector &      external,
+                    const Vector       &external,
                     const Inertia<dim> *inertia);
 
     /** Whether one iteration solves the step. */
@@ -67,7 +67,10 @@ namespace Impoint
     double evaluate(const Vector &u, const bool tangent_wanted);
 
     /** Residual of the last evaluation. */
-    const Vector &residual() const { return rest; }
+    const Vector &residual() const
+    {
+      return rest;
+    }
 
     /**
      * Newton's correction for the last tangent and residual. @p first adds the
@@ -92,21 +95,26 @@ namespace Impoint
 
     bool has_held_nodes() const; // on any rank
 
-    /** Force of its boundary on the held node: what the residual of the last
-     * evaluation leaves there. */
-    Tensor<1, dim> reaction(const Enforcement::HeldNode<dim> &node) const;
+    /** Force on the held node along its held direction @p k: what the residual
+     * of the last evaluation leaves there. */
+    Tensor<1, dim> reaction(const Enforcement::HeldNode<dim> &node,
+                            const unsigned int                k) const;
 
     /** Displacements of active cell @p k's nodes. */
     void gather(const unsigned int   k,
-                const Vector &       u,
+                const Vector        &u,
                 std::vector<double> &cell_u) const;
 
-    std::string solver_description() const { return solver.description(); }
+    std::string solver_description() const
+    {
+      return solver.description();
+    }
 
   private:
     enum class Part
     {
       all,
+      material,  // and inertia: no boundaries
       boundaries // with empty cells and lumped inertia: no material
     };
 
@@ -121,14 +129,14 @@ namespace Impoint
     void eliminate(BlockMatrix<dim> &matrix) const;
     double force_scale() const;
 
-    const ActiveNodes<dim> &            active;
-    const MaterialPoints<dim> &         points;
-    Methods &                           methods;
-    const Enforcement::Conforming<dim> &conforming;
-    Counters &                          counters;
-    Seconds &                           seconds;
-    EmptyCells<dim>                     empty_cells;
-    Hourglass<dim>                      hourglass;
+    const ActiveNodes<dim>                 &active;
+    const MaterialPoints<dim>              &points;
+    Methods                                &methods;
+    const Enforcement::Conforming<dim>     &conforming;
+    Counters                               &counters;
+    Seconds                                &seconds;
+    EmptyCells<dim>                         empty_cells;
+    Hourglass<dim>                          hourglass;
     std::vector<std::unique_ptr<Term<dim>>> terms;
     std::vector<Enforcement::HeldNode<dim>> held;
 

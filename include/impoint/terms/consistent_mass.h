@@ -19,9 +19,9 @@ namespace Impoint
     /** @p accelerations: of the cell's nodes (n * dim); @p alpha: their
      * derivative with respect to the displacements. */
     void add(const unsigned int k,
-             const double *     accelerations,
+             const double      *accelerations,
              const double       alpha,
-             CellSystem &       system) const;
+             CellSystem        &system) const;
 
   private:
     const MaterialPoints<dim> &points;

@@ -31,7 +31,7 @@ namespace Impoint
   private:
     void integrate(const unsigned int c, std::vector<double> &matrix) const;
 
-    const ActiveNodes<dim> &         active;
+    const ActiveNodes<dim>          &active;
     double                           young;
     std::vector<std::vector<double>> matrices; // per empty cell
   };

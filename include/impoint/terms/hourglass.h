@@ -31,10 +31,13 @@ namespace Impoint
     /** Adds the i-th of the starved cells. */
     void add(const unsigned int i, CellSystem &system) const;
 
-    const std::vector<unsigned int> &cells() const { return starved_cells; }
+    const std::vector<unsigned int> &cells() const
+    {
+      return starved_cells;
+    }
 
   private:
-    const ActiveNodes<dim> &         active;
+    const ActiveNodes<dim>          &active;
     double                           young;
     std::vector<unsigned int>        starved_cells;
     std::vector<std::vector<double>> matrices; // n x n, the same for components

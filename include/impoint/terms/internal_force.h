@@ -8,8 +8,8 @@ namespace Impoint
 {
   /**
    * Stress of the material points: first term of the residual P Eq. 15 and the
-   * first two of the tangent P Eq. 16, written with the Kirchhoff stress and the
-   * initial volume: v_p sigma = V_p tau.
+   * first two of the tangent P Eq. 16, written with the Kirchhoff stress and
+   * the initial volume: v_p sigma = V_p tau.
    */
   template <int dim>
   class InternalForce : public Term<dim>

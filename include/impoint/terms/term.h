@@ -11,10 +11,10 @@ namespace Impoint
    */
   struct CellSystem
   {
-    unsigned int  n = 0;              // nodes
-    const double *u = nullptr;        // n * dim
-    double *      residual = nullptr; // n * dim
-    double *      matrix   = nullptr; // null: the residual alone is wanted
+    unsigned int  n        = 0;       // nodes
+    const double *u        = nullptr; // n * dim
+    double       *residual = nullptr; // n * dim
+    double       *matrix   = nullptr; // null: the residual alone is wanted
   };
 
   /** Adds to the residual and tangent of the points that share a cell. */
