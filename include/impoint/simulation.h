@@ -39,20 +39,17 @@ namespace Impoint
   private:
     using Vector = LinearAlgebra::distributed::Vector<double>;
 
-    void   begin();
-    void   step_through();
-    void   advance(const double dt);
-    void   activate(const double start, const double end);
-    void   start_accelerations();
-    Vector external_forces(const double at) const;
-    void   find_new_places();
-    void   commit(const double dt);
-    void   update_points();
-    void   sum_forces();
-    void   record();
-    void   picture();
-    void   fill_record();
-    void   end(const std::string &status, const std::string &message);
+    void begin();
+    void step_through();
+    void advance(const double dt);
+    void activate(const double start, const double end);
+    void find_new_places();
+    void commit(const double dt);
+    void sum_forces();
+    void record();
+    void picture();
+    void fill_record();
+    void end(const std::string &status, const std::string &message);
 
     Measurements::State<dim> state() const;
 

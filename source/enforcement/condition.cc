@@ -55,6 +55,16 @@ namespace Impoint
       "averaged at the nodes (P Eq. 54); automatic: nodal where "
       "the particles' normals differ, else particle.",
       Patterns::Selection("automatic|particle|nodal"));
+    declare_motion(prm);
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+
+
+  /** What is prescribed, and when. */
+  void ConditionParameters::declare_motion(EntryHandler &prm)
+  {
     prm.declare_entry("Value",
                       "",
                       Patterns::Anything(),
@@ -97,8 +107,6 @@ namespace Impoint
                       until,
                       "Time until which the boundary acts [s].",
                       Patterns::Double());
-    prm.leave_subsection();
-    prm.leave_subsection();
   }
 
 

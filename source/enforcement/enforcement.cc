@@ -3,6 +3,8 @@
 #include <impoint/enforcement/penalty.h>
 #include <impoint/enforcement/traction.h>
 
+#include <algorithm>
+
 namespace Impoint
 {
   namespace Enforcement
@@ -108,6 +110,24 @@ namespace Impoint
 
 
     template <int dim>
+    std::vector<unsigned int>
+    cells(const std::vector<std::unique_ptr<Method<dim>>> &methods,
+          const double                                     start,
+          const double                                     end)
+    {
+      std::vector<unsigned int> result;
+      for (const auto &method : methods)
+        if (method->parameters().is_active(start, end))
+          for (const auto &range : method->particles().ranges())
+            result.push_back(range.cell);
+      std::sort(result.begin(), result.end());
+      result.erase(std::unique(result.begin(), result.end()), result.end());
+      return result;
+    }
+
+
+
+    template <int dim>
     std::unique_ptr<Method<dim>>
     create(const ParameterFile                    &file,
            const ConditionParameters              &parameters,
@@ -135,6 +155,14 @@ namespace Impoint
 
     template class Method<2>;
     template class Method<3>;
+    template std::vector<unsigned int>
+    cells(const std::vector<std::unique_ptr<Method<2>>> &,
+          const double,
+          const double);
+    template std::vector<unsigned int>
+    cells(const std::vector<std::unique_ptr<Method<3>>> &,
+          const double,
+          const double);
     template std::unique_ptr<Method<2>>
     create(const ParameterFile &,
            const ConditionParameters &,

@@ -82,22 +82,33 @@ namespace Impoint
     std::vector<double> properties(property_layout.n_doubles());
     for (const NewParticle &particle : particles)
       {
-        Assert(basis.grid().is_owned(particle.cell), ExcInternalError());
         std::copy(particle.properties.begin(),
                   particle.properties.end(),
                   properties.begin());
-        Point<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = properties[d];
-        const Point<dim> xi = basis.grid().to_reference(particle.cell, x);
-        for (unsigned int d = 0; d < dim; ++d)
-          properties[reference_slot + d] = xi[d];
-        handler->particles.insert_particle(x,
-                                           xi,
-                                           particle.id,
-                                           basis.grid().cell(particle.cell),
-                                           make_array_view(properties));
+        put_in(particle.cell, particle.id, properties.data());
       }
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::put_in(const unsigned int          cell,
+                               const types::particle_index id,
+                               double                     *properties)
+  {
+    Assert(basis.grid().is_owned(cell), ExcInternalError());
+    Point<dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = properties[d];
+    const Point<dim> xi = basis.grid().to_reference(cell, x);
+    for (unsigned int d = 0; d < dim; ++d)
+      properties[reference_slot + d] = xi[d];
+    handler->particles.insert_particle(
+      x,
+      xi,
+      id,
+      basis.grid().cell(cell),
+      ArrayView<const double>(properties, property_layout.n_doubles()));
   }
 
 
@@ -112,6 +123,7 @@ namespace Impoint
     cell_ranges.clear();
     states.clear();
     ids.clear();
+    references.clear();
     for (const unsigned int c : occupied_cells)
       {
         const unsigned int begin = states.size();
@@ -126,6 +138,7 @@ namespace Impoint
                 x[d]  = states.back()[d];
                 xi[d] = states.back()[reference_slot + d];
               }
+            references.push_back(xi);
             particle.set_location(x);
             particle.set_reference_location(xi);
           }
@@ -151,12 +164,9 @@ namespace Impoint
     supports.resize(size);
     for (const Range &range : cell_ranges)
       for (unsigned int p = range.begin; p < range.end; ++p)
-        {
-          Point<dim> xi;
-          for (unsigned int d = 0; d < dim; ++d)
-            xi[d] = states[p][reference_slot + d];
-          basis.evaluate(range.cell, xi, supports.data() + first_support[p]);
-        }
+        basis.evaluate(range.cell,
+                       references[p],
+                       supports.data() + first_support[p]);
   }
 
 
@@ -167,13 +177,13 @@ namespace Impoint
     const BackgroundGrid<dim> &grid = basis.grid();
     std::vector<unsigned int>  strays;
     moves.clear();
-    found_references.resize(n());
+    references.resize(n());
     const unsigned int me =
       Utilities::MPI::this_mpi_process(grid.communicator());
     for (const Range &range : cell_ranges)
       for (unsigned int p = range.begin; p < range.end; ++p)
         {
-          Point<dim> &xi = found_references[p];
+          Point<dim> &xi = references[p];
           xi             = grid.to_reference(range.cell, new_places[p]);
           if (grid.is_inside(xi))
             continue;
@@ -251,7 +261,7 @@ namespace Impoint
     const MPI_Comm comm = basis.grid().communicator();
     for (unsigned int p = 0; p < n(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
-        states[p][reference_slot + d] = found_references[p][d];
+        states[p][reference_slot + d] = references[p][d];
 
     const bool changed =
       Utilities::MPI::max(static_cast<unsigned int>(moves.size()), comm) > 0;
@@ -260,16 +270,16 @@ namespace Impoint
         const types::particle_index                      n_before = n_global();
         std::map<unsigned int, std::vector<NewParticle>> for_others;
         std::vector<unsigned int>                        occupied = cells();
-        std::vector<NewParticle> arriving = take_out(for_others);
+        change_cells(for_others, occupied);
         if (Utilities::MPI::n_mpi_processes(comm) > 1)
-          for (auto &message : Utilities::MPI::some_to_some(comm, for_others))
-            std::move(message.second.begin(),
-                      message.second.end(),
-                      std::back_inserter(arriving));
-        put_in(arriving);
+          for (const auto &message :
+               Utilities::MPI::some_to_some(comm, for_others))
+            {
+              put_in(message.second);
+              for (const NewParticle &particle : message.second)
+                occupied.push_back(particle.cell);
+            }
         handler->particles.update_cached_numbers();
-        for (const NewParticle &particle : arriving)
-          occupied.push_back(particle.cell);
         list(std::move(occupied));
         if (n_global() != n_before)
           throw RunFailed(
@@ -283,18 +293,20 @@ namespace Impoint
 
 
 
-  /** Removes the particles that move from the handler; returns those that stay
-   * on this rank. */
+  /** Puts the particles that move into their new cells, which are added to
+   * @p occupied, or hands them out for other ranks. */
   template <int dim>
-  std::vector<typename PointCloud<dim>::NewParticle> PointCloud<dim>::take_out(
-    std::map<unsigned int, std::vector<NewParticle>> &for_others)
+  void PointCloud<dim>::change_cells(
+    std::map<unsigned int, std::vector<NewParticle>> &for_others,
+    std::vector<unsigned int>                        &occupied)
   {
     const unsigned int me =
       Utilities::MPI::this_mpi_process(basis.grid().communicator());
+    const unsigned int n_doubles = property_layout.n_doubles();
     std::sort(moves.begin(), moves.end(), [](const Move &a, const Move &b) {
       return a.particle < b.particle;
     });
-    std::vector<NewParticle> staying;
+    std::vector<double> staying; // on this rank, without one allocation each
     std::vector<typename Particles::ParticleHandler<dim>::particle_iterator>
          leaving;
     auto range = cell_ranges.begin();
@@ -311,17 +323,26 @@ namespace Impoint
           if (move->particle == p)
             {
               leaving.push_back(particle);
-              auto &destination =
-                move->rank == me ? staying : for_others[move->rank];
-              destination.push_back(
-                {move->cell,
-                 ids[p],
-                 {states[p], states[p] + property_layout.n_doubles()}});
+              const double *begin = states[p], *end = begin + n_doubles;
+              if (move->rank == me)
+                staying.insert(staying.end(), begin, end);
+              else
+                for_others[move->rank].push_back(
+                  {move->cell, ids[p], std::vector<double>(begin, end)});
               ++move;
             }
       }
     handler->particles.remove_particles(leaving);
-    return staying;
+
+    double *properties = staying.data();
+    for (const Move &move : moves)
+      if (move.rank == me)
+        {
+          put_in(move.cell, ids[move.particle], properties);
+          properties += n_doubles;
+          if (occupied.back() != move.cell)
+            occupied.push_back(move.cell);
+        }
   }
 
 

@@ -47,9 +47,6 @@ namespace Impoint
   template <int dim>
   void Newton<dim>::solve(Vector &u)
   {
-    // Round-off of huge penalties keeps residuals from falling further.
-    constexpr double stalled_increment = 1e-12, stalled_residual = 1e-6;
-
     Vector delta;
     history.assign(1, system.evaluate(u, true));
     for (unsigned int iteration = 0; iteration < parameters.max_iterations;
@@ -70,10 +67,10 @@ namespace Impoint
         history.push_back(advance(delta, !expects_convergence(), u));
         const double size      = u.linfty_norm();
         const double increment = size > 0 ? delta.linfty_norm() / size : 0.;
-        if ((history.back() <= parameters.tolerance &&
-             increment <= parameters.increment_tolerance) ||
-            (increment <= stalled_increment &&
-             history.back() <= stalled_residual))
+        const double residual  = history.back();
+        const bool   small     = increment <= parameters.increment_tolerance;
+        if (small && (residual <= parameters.tolerance ||
+                      residual <= system.round_off(u)))
           return;
         if (!tangent_is_new)
           system.evaluate(u, true);

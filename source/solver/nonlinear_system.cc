@@ -1,9 +1,7 @@
 #include <impoint/base/exceptions.h>
 #include <impoint/base/scoped_seconds.h>
+#include <impoint/solver/held_nodes.h>
 #include <impoint/solver/nonlinear_system.h>
-#include <impoint/terms/consistent_mass.h>
-
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +12,9 @@ namespace Impoint
   {
     // Forces below this part of E h^(dim-1) are none.
     constexpr double smallest_force = 1e-13;
+
+    // Of one operation, with what sums of a few dozen terms make of it.
+    constexpr double machine_precision = 1e-15;
   } // namespace
 
 
@@ -33,8 +34,7 @@ namespace Impoint
     , conforming(conforming)
     , counters(counters)
     , seconds(seconds)
-    , empty_cells(active, points.young())
-    , hourglass(active, points.young())
+    , assembly(active, points, methods)
     , solver(parameters, counters, active.basis().grid().communicator())
   {}
 
@@ -43,7 +43,33 @@ namespace Impoint
   template <int dim>
   void NonlinearSystem<dim>::add_term(std::unique_ptr<Term<dim>> term)
   {
-    terms.push_back(std::move(term));
+    assembly.add_term(std::move(term));
+  }
+
+
+
+  template <int dim>
+  void NonlinearSystem<dim>::find_starved_cells()
+  {
+    counters.starved_cells = assembly.find_starved_cells();
+  }
+
+
+
+  template <int dim>
+  void NonlinearSystem<dim>::gather(const unsigned int   k,
+                                    const Vector        &u,
+                                    std::vector<double> &cell_u) const
+  {
+    assembly.gather(k, u, cell_u);
+  }
+
+
+
+  template <int dim>
+  void NonlinearSystem<dim>::update_multipliers(const Vector &u)
+  {
+    assembly.update_multipliers(u);
   }
 
 
@@ -53,7 +79,7 @@ namespace Impoint
   {
     ScopedSeconds timer(seconds.pattern);
     ++counters.patterns;
-    empty_cells.reinit();
+    assembly.new_active_set();
     problem.pattern = active.pattern();
     problem.points.resize(active.n_nodes());
     problem.regularisation.assign(active.n_nodes(), 0.);
@@ -75,28 +101,6 @@ namespace Impoint
     rest.reinit(active.unknowns());
     full_rest.reinit(active.unknowns());
     new_problem = true;
-  }
-
-
-
-  template <int dim>
-  void NonlinearSystem<dim>::find_starved_cells()
-  {
-    const unsigned int        n_rigid = dim * (dim + 1) / 2;
-    std::vector<unsigned int> starved;
-    for (unsigned int k = 0; k < active.n_material_cells(); ++k)
-      {
-        const unsigned int n     = active.nodes(k).size();
-        const auto        &range = points.ranges()[k];
-        // Simplices see all their modes with one point. Elsewhere as many
-        // strains as modes are not enough: points may lie on a line.
-        if (n > dim + 1 &&
-            (range.end - range.begin) * Voigt<dim>::n <= n * dim - n_rigid)
-          starved.push_back(k);
-      }
-    hourglass.reinit(starved);
-    counters.starved_cells =
-      Utilities::MPI::sum(starved.size(), active.basis().grid().communicator());
   }
 
 
@@ -146,246 +150,12 @@ namespace Impoint
 
 
 
+  /** E h^(dim-1): the force of a strain of one. */
   template <int dim>
-  void NonlinearSystem<dim>::gather(const unsigned int   k,
-                                    const Vector        &u,
-                                    std::vector<double> &values) const
+  double NonlinearSystem<dim>::force_scale_of_strain() const
   {
-    const auto nodes = active.nodes(k);
-    values.resize(nodes.size() * dim);
-    for (unsigned int a = 0; a < nodes.size(); ++a)
-      for (unsigned int d = 0; d < dim; ++d)
-        values[a * dim + d] = u.local_element(nodes[a] * dim + d);
-  }
-
-
-
-  template <int dim>
-  void NonlinearSystem<dim>::scatter(const unsigned int k,
-                                     BlockMatrix<dim>  &matrix) const
-  {
-    const unsigned int  n    = active.nodes(k).size();
-    const unsigned int *to   = active.scatter(k);
-    const double       *from = cell_matrix.data();
-    for (unsigned int ab = 0; ab < n * n; ++ab, from += dim * dim)
-      {
-        double *block = matrix.values.data() + std::size_t(to[ab]) * dim * dim;
-        for (unsigned int e = 0; e < dim * dim; ++e)
-          block[e] += from[e];
-      }
-  }
-
-
-
-  template <int dim>
-  void NonlinearSystem<dim>::scatter_residual(const unsigned int k)
-  {
-    const auto nodes = active.nodes(k);
-    for (unsigned int a = 0; a < nodes.size(); ++a)
-      for (unsigned int d = 0; d < dim; ++d)
-        full_rest.local_element(nodes[a] * dim + d) +=
-          cell_residual[a * dim + d];
-  }
-
-
-
-  namespace
-  {
-    void prepare_cell(const unsigned int   n_nodes,
-                      const unsigned int   dim,
-                      const bool           tangent_wanted,
-                      std::vector<double> &u,
-                      std::vector<double> &residual,
-                      std::vector<double> &matrix,
-                      CellSystem          &system)
-    {
-      const unsigned int n = n_nodes * dim;
-      residual.assign(n, 0.);
-      if (tangent_wanted)
-        matrix.assign(n * n, 0.);
-      system.n        = n_nodes;
-      system.u        = u.data();
-      system.residual = residual.data();
-      system.matrix   = tangent_wanted ? matrix.data() : nullptr;
-    }
-  } // namespace
-
-
-
-  template <int dim>
-  void NonlinearSystem<dim>::assemble_material(const Vector &u,
-                                               const bool    tangent_wanted,
-                                               const Part    part)
-  {
-    const ConsistentMass<dim> consistent_mass(points);
-    std::vector<double>       accelerations;
-    CellSystem                system;
-    unsigned int              next_starved = 0;
-    for (unsigned int k = part == Part::boundaries ? active.n_material_cells() :
-                                                     0;
-         k < active.n_cells();
-         ++k)
-      {
-        const auto nodes = active.nodes(k);
-        gather(k, u, cell_u);
-        prepare_cell(nodes.size(),
-                     dim,
-                     tangent_wanted,
-                     cell_u,
-                     cell_residual,
-                     cell_matrix,
-                     system);
-        if (k < active.n_material_cells())
-          {
-            for (const auto &term : terms)
-              term->add(k, system);
-            // In dynamics the mass holds what few points cannot see.
-            if (inertia == nullptr && next_starved < hourglass.cells().size() &&
-                hourglass.cells()[next_starved] == k)
-              hourglass.add(next_starved++, system);
-            if (inertia != nullptr && inertia->consistent())
-              {
-                accelerations.resize(nodes.size() * dim);
-                for (unsigned int a = 0; a < nodes.size(); ++a)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    accelerations[a * dim + d] =
-                      inertia->acceleration(nodes[a] * dim + d,
-                                            cell_u[a * dim + d]);
-                consistent_mass.add(k,
-                                    accelerations.data(),
-                                    inertia->alpha(),
-                                    system);
-              }
-          }
-        else
-          empty_cells.add(k, system);
-        scatter_residual(k);
-        if (tangent_wanted)
-          scatter(k, problem.matrix);
-      }
-  }
-
-
-
-  template <int dim>
-  void NonlinearSystem<dim>::assemble_boundaries(const Vector &u,
-                                                 const bool    tangent_wanted)
-  {
-    CellSystem system;
-    for (const auto &method : methods)
-      {
-        if (!method->is_active())
-          continue;
-        const auto &ranges = method->particles().ranges();
-        for (unsigned int r = 0; r < ranges.size(); ++r)
-          {
-            const unsigned int k = active.position(ranges[r].cell);
-            if (k == BackgroundGrid<dim>::nowhere)
-              continue;
-            gather(k, u, cell_u);
-            const auto begin_cell = [&]() {
-              prepare_cell(active.nodes(k).size(),
-                           dim,
-                           tangent_wanted,
-                           cell_u,
-                           cell_residual,
-                           cell_matrix,
-                           system);
-            };
-            if (tangent_wanted && problem.has_moderate)
-              {
-                begin_cell();
-                method->add(r, Enforcement::Strength::moderate, system);
-                scatter(k, problem.moderate);
-              }
-            begin_cell();
-            method->add(r, Enforcement::Strength::exact, system);
-            scatter_residual(k);
-            if (tangent_wanted)
-              scatter(k, problem.matrix);
-          }
-      }
-  }
-
-
-
-  /** Lumped mass: a diagonal that each node's owner adds. */
-  template <int dim>
-  void NonlinearSystem<dim>::add_inertia(const Vector &u,
-                                         const bool    tangent_wanted)
-  {
-    for (unsigned int i = 0; i < active.n_owned_nodes(); ++i)
-      {
-        const double mass = inertia->mass(i);
-        for (unsigned int d = 0; d < dim; ++d)
-          full_rest.local_element(i * dim + d) +=
-            mass *
-            inertia->acceleration(i * dim + d, u.local_element(i * dim + d));
-        if (tangent_wanted)
-          {
-            const auto row   = problem.pattern.columns.begin();
-            const auto begin = row + problem.pattern.row_start[i];
-            const auto end   = row + problem.pattern.row_start[i + 1];
-            double    *block = problem.matrix.values.data() +
-                            (std::lower_bound(begin, end, i) - row) * dim * dim;
-            for (unsigned int d = 0; d < dim; ++d)
-              block[d * dim + d] += inertia->alpha() * mass;
-          }
-      }
-  }
-
-
-
-  template <int dim>
-  void NonlinearSystem<dim>::assemble(const Vector &u,
-                                      const bool    tangent_wanted,
-                                      const Part    part)
-  {
-    full_rest = 0;
-    if (tangent_wanted)
-      {
-        problem.matrix.reinit(problem.pattern);
-        problem.has_moderate = false;
-      }
-    std::string failure;
-    try
-      {
-        assemble_material(u, tangent_wanted, part);
-      }
-    catch (const StepFailed &step_failure)
-      {
-        failure = step_failure.what();
-      }
-    for (const auto &message :
-         Utilities::MPI::all_gather(active.basis().grid().communicator(),
-                                    failure))
-      if (!message.empty())
-        throw StepFailed(message);
-
-    if (inertia != nullptr &&
-        (part == Part::boundaries || !inertia->consistent()))
-      add_inertia(u, tangent_wanted);
-    full_rest.compress(VectorOperation::add);
-    const double internal = full_rest.l2_norm();
-    full_rest.zero_out_ghost_values();
-
-    bool constrained = false;
-    for (const auto &method : methods)
-      constrained |= method->is_active() && method->constrains();
-    if (tangent_wanted && constrained && solver.iterative(active))
-      {
-        // what the boundaries add to it comes next
-        problem.has_moderate = true;
-        problem.moderate     = problem.matrix;
-      }
-    Vector before(full_rest);
-    full_rest = 0;
-    if (part != Part::material)
-      assemble_boundaries(u, tangent_wanted);
-    full_rest.compress(VectorOperation::add);
-    scale = std::max({internal, full_rest.l2_norm(), external.l2_norm()});
-    full_rest += before;
-    full_rest -= external;
+    const double h = active.basis().grid().smallest_size();
+    return points.young() * Utilities::fixed_power<dim - 1>(h);
   }
 
 
@@ -393,10 +163,7 @@ namespace Impoint
   template <int dim>
   double NonlinearSystem<dim>::force_scale() const
   {
-    const double h = active.basis().grid().smallest_size();
-    return std::max(scale,
-                    smallest_force * points.young() *
-                      Utilities::fixed_power<dim - 1>(h));
+    return std::max(scale, smallest_force * force_scale_of_strain());
   }
 
 
@@ -408,19 +175,34 @@ namespace Impoint
     ScopedSeconds timer(seconds.assembly);
     ++counters.residuals;
     counters.tangents += tangent_wanted;
-    assemble(u, tangent_wanted, Part::all);
+    scale = assembly.assemble(u,
+                              Assembly<dim>::Part::all,
+                              tangent_wanted,
+                              tangent_wanted && solver.iterative(active),
+                              external,
+                              inertia,
+                              problem,
+                              full_rest);
     full_rest.update_ghost_values();
     rest = full_rest;
-    for (const auto &node : held)
-      {
-        Tensor<1, dim> r;
-        for (unsigned int d = 0; d < dim; ++d)
-          r[d] = rest.local_element(node.node * dim + d);
-        r = node.projector() * r;
-        for (unsigned int d = 0; d < dim; ++d)
-          rest.local_element(node.node * dim + d) = r[d];
-      }
+    cut(held, false, rest);
     return rest.l2_norm() / force_scale();
+  }
+
+
+
+  template <int dim>
+  double NonlinearSystem<dim>::round_off(const Vector &u) const
+  {
+    double stiffest = 0;
+    for (const double entry : problem.matrix.values)
+      stiffest = std::max(stiffest, std::abs(entry));
+    stiffest =
+      Utilities::MPI::max(stiffest, active.basis().grid().communicator());
+    const double strain_part =
+      points.small_strain() ? 0. : force_scale_of_strain();
+    return machine_precision * std::sqrt(double(u.size())) *
+           (stiffest * u.linfty_norm() + strain_part) / force_scale();
   }
 
 
@@ -444,53 +226,6 @@ namespace Impoint
       force +=
         full_rest.local_element(node.node * dim + d) * node.direction[k][d];
     return force * node.direction[k];
-  }
-
-
-
-  /** P K P + largest (1 - P) with the projector P onto what nodes are free to
-   * do: P Eqs. 29, 32, 35 without turning unknowns into other frames, which
-   * would hide rigid motions from whoever reads the matrix. */
-  template <int dim>
-  void NonlinearSystem<dim>::eliminate(BlockMatrix<dim> &matrix) const
-  {
-    if (held.empty())
-      return;
-    constexpr unsigned int    none = BackgroundGrid<dim>::nowhere;
-    const Tensor<2, dim>      one(unit_symmetric_tensor<dim>());
-    const auto               &pattern = problem.pattern;
-    double                    largest = 0;
-    std::vector<unsigned int> held_at(active.n_nodes(), none);
-    for (unsigned int i = 0; i < held.size(); ++i)
-      held_at[held[i].node] = i;
-    for (const double value : matrix.values)
-      largest = std::max(largest, std::abs(value));
-
-    const auto treat = [&](const unsigned int row, const std::size_t q) {
-      const unsigned int column = pattern.columns[q];
-      const unsigned int i = held_at[row], j = held_at[column];
-      if (i == none && j == none)
-        return;
-      double        *values = matrix.values.data() + q * dim * dim;
-      Tensor<2, dim> block;
-      for (unsigned int r = 0; r < dim; ++r)
-        for (unsigned int s = 0; s < dim; ++s)
-          block[r][s] = values[r * dim + s];
-      if (i != none)
-        block = held[i].projector() * block;
-      if (j != none)
-        block = block * held[j].projector();
-      if (row == column && row < active.n_owned_nodes())
-        block += largest * (one - held[i].projector());
-      for (unsigned int r = 0; r < dim; ++r)
-        for (unsigned int s = 0; s < dim; ++s)
-          values[r * dim + s] = block[r][s];
-    };
-    for (unsigned int row = 0; row < pattern.n_rows(); ++row)
-      for (std::size_t q = pattern.row_start[row];
-           q < pattern.row_start[row + 1];
-           ++q)
-        treat(row, q);
   }
 
 
@@ -522,24 +257,10 @@ namespace Impoint
     right *= -1.;
     right.update_ghost_values();
 
-    // What is held is cut out of a vector, and takes its value instead.
-    const auto cut = [&](Vector &vector, const bool with_values) {
-      for (const auto &node : held)
-        {
-          Tensor<1, dim> value;
-          for (unsigned int d = 0; d < dim; ++d)
-            value[d] = vector.local_element(node.node * dim + d);
-          value = node.projector() * value;
-          if (with_values)
-            value += node.prescribed();
-          for (unsigned int d = 0; d < dim; ++d)
-            vector.local_element(node.node * dim + d) = value[d];
-        }
-    };
-    cut(right, false);
-    eliminate(problem.matrix);
+    cut(held, false, right);
+    eliminate(held, active.n_owned_nodes(), problem.matrix);
     if (problem.has_moderate)
-      eliminate(problem.moderate);
+      eliminate(held, active.n_owned_nodes(), problem.moderate);
 
     if (new_problem)
       solver.new_pattern(active, problem);
@@ -549,7 +270,7 @@ namespace Impoint
     new_problem = false;
     solver.solve(problem, right, delta);
     delta.update_ghost_values();
-    cut(delta, first);
+    cut(held, first, delta);
   }
 
 
@@ -567,27 +288,6 @@ namespace Impoint
 
 
 
-  template <int dim>
-  void NonlinearSystem<dim>::update_multipliers(const Vector &u)
-  {
-    for (const auto &method : methods)
-      {
-        if (!method->is_active() || !method->augmented())
-          continue;
-        const auto &ranges = method->particles().ranges();
-        for (unsigned int r = 0; r < ranges.size(); ++r)
-          {
-            const unsigned int k = active.position(ranges[r].cell);
-            if (k == BackgroundGrid<dim>::nowhere)
-              continue;
-            gather(k, u, cell_u);
-            method->update_multipliers(r, cell_u.data());
-          }
-      }
-  }
-
-
-
   /**
    * With w = beta dt^2 a the balance at the start reads alpha M w + P w = f: a
    * linear step with inertia and boundaries but without the stiffness of the
@@ -600,12 +300,22 @@ namespace Impoint
     zero.update_ghost_values();
     // Forces at rest, initial stress included: without M a(0) of Newmark's
     // relation, which holds the velocities, and without walls that move.
-    const Inertia<dim> *step_inertia = inertia;
-    inertia                          = nullptr;
-    assemble(zero, false, Part::material);
-    inertia = step_inertia;
-    const Vector forces(full_rest);
-    assemble(zero, true, Part::boundaries);
+    Vector     forces;
+    const auto assemble = [&](const typename Assembly<dim>::Part part,
+                              const bool                         tangent_wanted,
+                              const Inertia<dim>                *with_inertia,
+                              Vector                            &residual) {
+      assembly.assemble(zero,
+                        part,
+                        tangent_wanted,
+                        tangent_wanted && solver.iterative(active),
+                        external,
+                        with_inertia,
+                        problem,
+                        residual);
+    };
+    assemble(Assembly<dim>::Part::material, false, nullptr, forces);
+    assemble(Assembly<dim>::Part::boundaries, true, inertia, full_rest);
     full_rest = forces;
     full_rest.update_ghost_values();
     for (auto &node : held)

@@ -76,6 +76,62 @@ namespace Impoint
                "turns freely" :
                std::string("turns freely about ") + "xyz"[largest - dim];
     }
+
+    /** Connected nodes that move together. */
+    template <int dim>
+    struct Part
+    {
+      static constexpr unsigned int n_modes = dim * (dim + 1) / 2;
+
+      Point<dim>               centre;
+      double                   n_nodes = 0, extent = 0;
+      LAPACKFullMatrix<double> energy, scale; // of the modes
+
+      Part()
+        : energy(n_modes)
+        , scale(n_modes)
+      {
+        energy = 0;
+        scale  = 0;
+      }
+
+      /** Throws if a mode costs nothing. */
+      void check()
+      {
+        std::vector<Vector<double>> vectors(n_modes, Vector<double>(n_modes));
+        energy.compute_generalized_eigenvalues_symmetric(scale, vectors);
+        for (unsigned int m = 0; m < n_modes; ++m)
+          if (energy.eigenvalue(m).real() < smallest_stiffness)
+            {
+              std::ostringstream text;
+              text << "the material around (" << centre << ") "
+                   << name_of_mode<dim>({vectors[m].begin(), vectors[m].end()})
+                   << ": no boundary holds it, and statics has no answer. Add "
+                      "a boundary, or set 'Kind = dynamic' in section 'Time'";
+              throw RunFailed(text.str());
+            }
+      }
+    };
+
+    template <int dim>
+    std::vector<Part<dim>> place_parts(const LinearProblem<dim>        &problem,
+                                       const std::vector<unsigned int> &part,
+                                       const unsigned int               n_parts)
+    {
+      std::vector<Part<dim>> parts(n_parts);
+      for (unsigned int i = 0; i < part.size(); ++i)
+        {
+          parts[part[i]].centre += problem.points[i];
+          parts[part[i]].n_nodes += 1;
+        }
+      for (auto &it : parts)
+        it.centre /= it.n_nodes;
+      for (unsigned int i = 0; i < part.size(); ++i)
+        parts[part[i]].extent =
+          std::max(parts[part[i]].extent,
+                   parts[part[i]].centre.distance(problem.points[i]));
+      return parts;
+    }
   } // namespace
 
 
@@ -83,94 +139,45 @@ namespace Impoint
   template <int dim>
   void check_rigid_modes(const LinearProblem<dim> &problem)
   {
-    constexpr unsigned int    n_modes = dim * (dim + 1) / 2;
+    constexpr unsigned int    n_modes = Part<dim>::n_modes;
+    const unsigned int        n       = problem.pattern.n_rows();
     std::vector<unsigned int> part;
     const unsigned int        n_parts = connected_parts(problem.pattern, part);
-    const unsigned int        n       = problem.pattern.n_rows();
+    std::vector<Part<dim>>    parts   = place_parts(problem, part, n_parts);
 
-    std::vector<Point<dim>> centre(n_parts);
-    std::vector<double>     count(n_parts, 0.), extent(n_parts, 0.);
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        centre[part[i]] += problem.points[i];
-        count[part[i]] += 1;
-      }
-    for (unsigned int c = 0; c < n_parts; ++c)
-      centre[c] /= count[c];
-    for (unsigned int i = 0; i < n; ++i)
-      extent[part[i]] =
-        std::max(extent[part[i]], centre[part[i]].distance(problem.points[i]));
-
-    // A held unknown has nothing but its diagonal in its row; modes vanish
-    // there, and the mode's energy is that of what is left.
     std::vector<std::vector<double>> modes(n_modes), products(n_modes);
-    std::vector<double>              diagonal(n * dim), row_sum(n * dim, 0.);
-    for (unsigned int i = 0; i < n; ++i)
-      for (std::size_t q = problem.pattern.row_start[i];
-           q < problem.pattern.row_start[i + 1];
-           ++q)
-        for (unsigned int r = 0; r < dim; ++r)
-          for (unsigned int s = 0; s < dim; ++s)
-            {
-              const double value =
-                problem.matrix.values[(q * dim + r) * dim + s];
-              if (problem.pattern.columns[q] == i && r == s)
-                diagonal[i * dim + r] = value;
-              else
-                row_sum[i * dim + r] += std::abs(value);
-            }
     for (unsigned int m = 0; m < n_modes; ++m)
       {
         modes[m].resize(n * dim);
         products[m].resize(n * dim);
         for (unsigned int i = 0; i < n; ++i)
           {
-            const Point<dim> place(
-              (problem.points[i] - centre[part[i]]) /
-              std::max(extent[part[i]], std::numeric_limits<double>::min()));
-            const Tensor<1, dim> value = rigid_mode<dim>(m, place);
+            const Part<dim>     &it    = parts[part[i]];
+            const Tensor<1, dim> value = rigid_mode<dim>(
+              m, Point<dim>((problem.points[i] - it.centre) / it.extent));
             for (unsigned int d = 0; d < dim; ++d)
-              modes[m][i * dim + d] = row_sum[i * dim + d] > 0 ? value[d] : 0.;
+              modes[m][i * dim + d] = value[d];
           }
         problem.matrix.vmult(modes[m].data(), products[m].data());
       }
 
-    for (unsigned int c = 0; c < n_parts; ++c)
-      {
-        LAPACKFullMatrix<double> energy(n_modes), scale(n_modes);
-        energy = 0;
-        scale  = 0;
-        for (unsigned int i = 0; i < n; ++i)
-          if (part[i] == c)
-            for (unsigned int r = 0; r < n_modes; ++r)
-              for (unsigned int s = 0; s < n_modes; ++s)
-                for (unsigned int d = 0; d < dim; ++d)
-                  {
-                    const unsigned int at = i * dim + d;
-                    energy(r, s) += modes[r][at] * products[s][at];
-                    scale(r, s) += modes[r][at] * diagonal[at] * modes[s][at];
-                  }
-        // a mode that is held everywhere has no scale of its own
-        for (unsigned int r = 0; r < n_modes; ++r)
-          if (scale(r, r) <= 0)
-            {
-              energy(r, r) = 1;
-              scale(r, r)  = 1;
-            }
-        std::vector<Vector<double>> vectors(n_modes, Vector<double>(n_modes));
-        energy.compute_generalized_eigenvalues_symmetric(scale, vectors);
-        for (unsigned int m = 0; m < n_modes; ++m)
-          if (energy.eigenvalue(m).real() < smallest_stiffness)
-            {
-              std::ostringstream text;
-              text
-                << "the material around (" << centre[c] << ") "
-                << name_of_mode<dim>({vectors[m].begin(), vectors[m].end()})
-                << ": no boundary holds it, and statics has no answer. Add a "
-                   "boundary, or set 'Kind = dynamic' in section 'Time'";
-              throw RunFailed(text.str());
-            }
-      }
+    const auto diagonal = diagonal_blocks(problem.pattern);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const unsigned int at = i * dim + d;
+          const double       stiffness =
+            problem.matrix.values[(diagonal[i] * dim + d) * dim + d];
+          for (unsigned int r = 0; r < n_modes; ++r)
+            for (unsigned int s = 0; s < n_modes; ++s)
+              {
+                parts[part[i]].energy(r, s) += modes[r][at] * products[s][at];
+                parts[part[i]].scale(r, s) +=
+                  modes[r][at] * stiffness * modes[s][at];
+              }
+        }
+    for (auto &it : parts)
+      it.check();
   }
 
   template void check_rigid_modes(const LinearProblem<2> &);

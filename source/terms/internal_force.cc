@@ -87,6 +87,9 @@ namespace Impoint
       constexpr int n_v = Voigt<dim>::n;
       double        stress_column[dim]; // V tau g_b
       double        columns[n_v * dim]; // V c B_b
+
+      // a copy that the compiler knows the writes below not to change
+      const VoigtMatrix<dim> tangent = response.tangent;
       for (int b = 0; b < n; ++b)
         {
           const double *g = gradients + b * dim;
@@ -95,8 +98,7 @@ namespace Impoint
               {
                 double sum = 0;
                 for (int l = 0; l < dim; ++l)
-                  sum +=
-                    response.tangent[k * n_v + voigt_index<dim>(j, l)] * g[l];
+                  sum += tangent[k * n_v + voigt_index<dim>(j, l)] * g[l];
                 columns[k * dim + j] = volume * sum;
               }
           for (int i = 0; i < dim; ++i)
@@ -277,27 +279,27 @@ namespace Impoint
           for (int i = 0; i < dim; ++i)
             {
               const double weighted = volume * gradients[a * dim + i];
-              for (int b = a; b < n; ++b)
-                for (int j = 0; j < dim; ++j)
-                  moments[(a * n + b) * dim * dim + i * dim + j] +=
-                    weighted * gradients[b * dim + j];
+              double      *row      = moments + (a * dim + i) * n * dim;
+              for (int bj = a * dim; bj < n * dim; ++bj)
+                row[bj] += weighted * gradients[bj];
             }
       }
 
-    constexpr int n_v = Voigt<dim>::n;
+    constexpr int          n_v     = Voigt<dim>::n;
+    const VoigtMatrix<dim> tangent = response.tangent;
     for (int a = 0; a < n; ++a)
       for (int b = a; b < n; ++b)
         {
-          const double *M = moments + (a * n + b) * dim * dim;
+          const double *M = moments + a * dim * n * dim + b * dim;
           for (int i = 0; i < dim; ++i)
             for (int j = 0; j < dim; ++j)
               {
                 double sum = 0;
                 for (int r = 0; r < dim; ++r)
                   for (int s = 0; s < dim; ++s)
-                    sum += response.tangent[voigt_index<dim>(i, r) * n_v +
-                                            voigt_index<dim>(j, s)] *
-                           M[r * dim + s];
+                    sum += tangent[voigt_index<dim>(i, r) * n_v +
+                                   voigt_index<dim>(j, s)] *
+                           M[r * n * dim + s];
                 system.matrix[(a * n + b) * dim * dim + i * dim + j] += sum;
                 if (a != b)
                   system.matrix[(b * n + a) * dim * dim + j * dim + i] += sum;

@@ -7,20 +7,20 @@
 #include <impoint/setup.h>
 #include <impoint/terms/internal_force.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
 
 using namespace Impoint;
 
-// Steady-clock seconds that f takes.
+// Processor seconds that f takes: other programs may share the machine.
 template <typename Function>
 double seconds_of(const Function &f)
 {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   f();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
-    .count();
+  return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 // The least of what a repeated measurement gave: what other programs on the

@@ -13,6 +13,7 @@ namespace Impoint
 {
   using namespace dealii;
 
+  class EntryHandler;
   class ParameterFile;
 
   /** What a boundary prescribes, and how it is enforced: the entries of
@@ -46,6 +47,7 @@ namespace Impoint
     double              until = std::numeric_limits<double>::max();
 
   private:
+    void declare_motion(EntryHandler &prm);
     void check_unused(const ParameterFile &file, const bool conforming) const;
   };
 

@@ -7,6 +7,7 @@
 #include <impoint/terms/term.h>
 
 #include <memory>
+#include <vector>
 
 namespace Impoint
 {
@@ -116,6 +117,15 @@ namespace Impoint
       Step<dim>                               current;
       bool                                    active_now = false;
     };
+
+    /** This rank's cells with particles of the methods that act from @p start
+     * to
+     * @p end, increasing. */
+    template <int dim>
+    std::vector<unsigned int>
+    cells(const std::vector<std::unique_ptr<Method<dim>>> &methods,
+          const double                                     start,
+          const double                                     end);
 
     /** The method named by @p parameters. Throws InputError. */
     template <int dim>

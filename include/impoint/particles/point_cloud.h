@@ -127,9 +127,13 @@ namespace Impoint
 
     void find_strays(const std::vector<Point<dim>>   &new_places,
                      const std::vector<unsigned int> &strays);
-    std::vector<NewParticle>
-         take_out(std::map<unsigned int, std::vector<NewParticle>> &for_others);
+    void
+    change_cells(std::map<unsigned int, std::vector<NewParticle>> &for_others,
+                 std::vector<unsigned int>                        &occupied);
     void put_in(const std::vector<NewParticle> &particles);
+    void put_in(const unsigned int          cell,
+                const types::particle_index id,
+                double                     *properties);
     void list(std::vector<unsigned int> occupied_cells);
     void evaluate_supports();
 
@@ -143,8 +147,8 @@ namespace Impoint
     std::vector<std::size_t>           first_support;
     std::vector<double>                supports;
 
-    // found by find(), used by move()
-    std::vector<Point<dim>> found_references;
+    // those found by find(), used by move()
+    std::vector<Point<dim>> references; // in the order of states
     std::vector<Move>       moves;
   };
 } // namespace Impoint

@@ -1,16 +1,10 @@
 #ifndef impoint_solver_nonlinear_system_h
 #define impoint_solver_nonlinear_system_h
 
-#include <impoint/enforcement/conforming.h>
-#include <impoint/enforcement/enforcement.h>
-#include <impoint/particles/material_points.h>
-#include <impoint/solver/gathered_solver.h>
-#include <impoint/solver/inertia.h>
-#include <impoint/terms/empty_cells.h>
-#include <impoint/terms/hourglass.h>
-#include <impoint/terms/term.h>
 
-#include <deal.II/lac/la_parallel_vector.h>
+#include <impoint/enforcement/conforming.h>
+#include <impoint/solver/assembly.h>
+#include <impoint/solver/gathered_solver.h>
 
 #include <memory>
 #include <vector>
@@ -26,8 +20,8 @@ namespace Impoint
   class NonlinearSystem
   {
   public:
-    using Vector  = LinearAlgebra::distributed::Vector<double>;
-    using Methods = std::vector<std::unique_ptr<Enforcement::Method<dim>>>;
+    using Vector  = typename Assembly<dim>::Vector;
+    using Methods = typename Assembly<dim>::Methods;
 
     NonlinearSystem(const ActiveNodes<dim>             &active,
                     const MaterialPoints<dim>          &points,
@@ -65,6 +59,13 @@ namespace Impoint
      * if a material has no answer. Collective.
      */
     double evaluate(const Vector &u, const bool tangent_wanted);
+
+    /**
+     * The relative residual that round-off leaves at @p u: of displacements
+     * times the stiffest entry of the matrix (penalties), and of strains that
+     * F stores beside 1. Collective.
+     */
+    double round_off(const Vector &u) const;
 
     /** Residual of the last evaluation. */
     const Vector &residual() const
@@ -111,23 +112,8 @@ namespace Impoint
     }
 
   private:
-    enum class Part
-    {
-      all,
-      material,  // and inertia: no boundaries
-      boundaries // with empty cells and lumped inertia: no material
-    };
-
-    void assemble(const Vector &u, const bool tangent_wanted, const Part part);
-    void assemble_material(const Vector &u,
-                           const bool    tangent_wanted,
-                           const Part    part);
-    void assemble_boundaries(const Vector &u, const bool tangent_wanted);
-    void add_inertia(const Vector &u, const bool tangent_wanted);
-    void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
-    void scatter_residual(const unsigned int k);
-    void eliminate(BlockMatrix<dim> &matrix) const;
     double force_scale() const;
+    double force_scale_of_strain() const;
 
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;
@@ -135,9 +121,7 @@ namespace Impoint
     const Enforcement::Conforming<dim>     &conforming;
     Counters                               &counters;
     Seconds                                &seconds;
-    EmptyCells<dim>                         empty_cells;
-    Hourglass<dim>                          hourglass;
-    std::vector<std::unique_ptr<Term<dim>>> terms;
+    Assembly<dim>                           assembly;
     std::vector<Enforcement::HeldNode<dim>> held;
 
     LinearProblem<dim>  problem;
@@ -146,9 +130,6 @@ namespace Impoint
     Vector              external, rest, full_rest;
     const Inertia<dim> *inertia = nullptr;
     double              scale   = 0; // forces that balance [N]
-
-    // of the cell in work
-    std::vector<double> cell_u, cell_residual, cell_matrix;
   };
 } // namespace Impoint
 

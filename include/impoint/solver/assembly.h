@@ -1,0 +1,99 @@
+#ifndef impoint_solver_assembly_h
+#define impoint_solver_assembly_h
+
+#include <impoint/enforcement/enforcement.h>
+#include <impoint/solver/inertia.h>
+#include <impoint/solver/linear_solver.h>
+#include <impoint/terms/consistent_mass.h>
+#include <impoint/terms/empty_cells.h>
+#include <impoint/terms/hourglass.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <memory>
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * Goes over the active cells and adds up what terms and boundaries
+   * contribute to the residual (P Eq. 15) and the tangent (P Eq. 16).
+   */
+  template <int dim>
+  class Assembly
+  {
+  public:
+    using Vector  = LinearAlgebra::distributed::Vector<double>;
+    using Methods = std::vector<std::unique_ptr<Enforcement::Method<dim>>>;
+
+    enum class Part
+    {
+      all,
+      material,  // and inertia: no boundaries
+      boundaries // with empty cells and lumped inertia: no material
+    };
+
+    Assembly(const ActiveNodes<dim>    &active,
+             const MaterialPoints<dim> &points,
+             Methods                   &methods);
+
+    /** Terms that act in material cells, added once. */
+    void add_term(std::unique_ptr<Term<dim>> term);
+
+    /** After the set of active cells changed. */
+    void new_active_set();
+
+    /** After points changed their cells: finds the cells that have too few of
+     * them and returns how many there are on all ranks. Collective. */
+    std::size_t find_starved_cells();
+
+    /**
+     * Sets @p residual, and if wanted the matrix of @p problem (as this rank's
+     * sum; conforming boundaries not yet eliminated) and its moderate variant.
+     * Returns the size of the forces that balance in the residual. Throws
+     * StepFailed on all ranks if a material has no answer. Collective.
+     */
+    double assemble(const Vector       &u,
+                    const Part          part,
+                    const bool          tangent_wanted,
+                    const bool          moderate_wanted,
+                    const Vector       &external,
+                    const Inertia<dim> *inertia,
+                    LinearProblem<dim> &problem,
+                    Vector             &residual);
+
+    /** Displacements of active cell @p k's nodes. */
+    void gather(const unsigned int   k,
+                const Vector        &u,
+                std::vector<double> &cell_u) const;
+
+    void update_multipliers(const Vector &u);
+
+  private:
+    void assemble_material(const Vector &u,
+                           const bool    tangent_wanted,
+                           const Part    part);
+    void assemble_boundaries(const Vector &u, const bool tangent_wanted);
+    void add_inertia(const Vector &u, const bool tangent_wanted);
+    void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
+    void scatter_residual(const unsigned int k);
+
+    const ActiveNodes<dim>                 &active;
+    const MaterialPoints<dim>              &points;
+    Methods                                &methods;
+    EmptyCells<dim>                         empty_cells;
+    Hourglass<dim>                          hourglass;
+    ConsistentMass<dim>                     consistent_mass;
+    std::vector<std::unique_ptr<Term<dim>>> terms;
+
+    // of the call of assemble() at work
+    LinearProblem<dim> *problem = nullptr;
+    const Inertia<dim> *inertia = nullptr;
+    Vector              rest;
+
+    // of the cell at work
+    std::vector<double> cell_u, cell_residual, cell_matrix;
+  };
+} // namespace Impoint
+
+#endif

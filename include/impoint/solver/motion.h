@@ -1,0 +1,42 @@
+#ifndef impoint_solver_motion_h
+#define impoint_solver_motion_h
+
+#include <impoint/grid/active_nodes.h>
+#include <impoint/particles/material_points.h>
+#include <impoint/solver/inertia.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <vector>
+
+namespace Impoint
+{
+  // From the nodes back to the material points: P Eqs. 22-25. Vectors are on
+  // the active nodes, ghosts up to date; the points are still where they were
+  // when their supports were evaluated.
+
+  /** Where the points will be after a step with displacements @p u. */
+  template <int dim>
+  std::vector<Point<dim>>
+  new_places(const MaterialPoints<dim>                        &points,
+             const ActiveNodes<dim>                           &active,
+             const LinearAlgebra::distributed::Vector<double> &u);
+
+  /** Gives the points the accelerations of the nodes. */
+  template <int dim>
+  void set_accelerations(
+    const ActiveNodes<dim>                           &active,
+    const LinearAlgebra::distributed::Vector<double> &accelerations,
+    MaterialPoints<dim>                              &points);
+
+  /** Places, displacements, deformation gradients, stresses and histories of
+   * the points after the step, and their velocities unless @p inertia is
+   * null. */
+  template <int dim>
+  void update_points(const ActiveNodes<dim>                           &active,
+                     const LinearAlgebra::distributed::Vector<double> &u,
+                     const Inertia<dim>                               *inertia,
+                     MaterialPoints<dim>                              &points);
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,334 @@
+#include <impoint/base/exceptions.h>
+#include <impoint/solver/assembly.h>
+
+#include <algorithm>
+
+namespace Impoint
+{
+  template <int dim>
+  Assembly<dim>::Assembly(const ActiveNodes<dim>    &active,
+                          const MaterialPoints<dim> &points,
+                          Methods                   &methods)
+    : active(active)
+    , points(points)
+    , methods(methods)
+    , empty_cells(active, points.young())
+    , hourglass(active, points.young())
+    , consistent_mass(points)
+  {}
+
+
+
+  template <int dim>
+  void Assembly<dim>::new_active_set()
+  {
+    empty_cells.reinit();
+  }
+
+
+
+  template <int dim>
+  void Assembly<dim>::add_term(std::unique_ptr<Term<dim>> term)
+  {
+    terms.push_back(std::move(term));
+  }
+
+
+
+  template <int dim>
+  std::size_t Assembly<dim>::find_starved_cells()
+  {
+    const unsigned int        n_rigid = dim * (dim + 1) / 2;
+    std::vector<unsigned int> starved;
+    for (unsigned int k = 0; k < active.n_material_cells(); ++k)
+      {
+        const unsigned int n     = active.nodes(k).size();
+        const auto        &range = points.ranges()[k];
+        // Simplices see all their modes with one point. Elsewhere as many
+        // strains as modes are not enough: points may lie on a line.
+        if (n > dim + 1 &&
+            (range.end - range.begin) * Voigt<dim>::n <= n * dim - n_rigid)
+          starved.push_back(k);
+      }
+    hourglass.reinit(starved);
+    return Utilities::MPI::sum(starved.size(),
+                               active.basis().grid().communicator());
+  }
+
+
+
+  template <int dim>
+  void Assembly<dim>::gather(const unsigned int   k,
+                             const Vector        &u,
+                             std::vector<double> &values) const
+  {
+    const auto nodes = active.nodes(k);
+    values.resize(nodes.size() * dim);
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      for (unsigned int d = 0; d < dim; ++d)
+        values[a * dim + d] = u.local_element(nodes[a] * dim + d);
+  }
+
+
+
+  template <int dim>
+  void Assembly<dim>::scatter(const unsigned int k,
+                              BlockMatrix<dim>  &matrix) const
+  {
+    const unsigned int  n    = active.nodes(k).size();
+    const unsigned int *to   = active.scatter(k);
+    const double       *from = cell_matrix.data();
+    for (unsigned int ab = 0; ab < n * n; ++ab, from += dim * dim)
+      {
+        double *block = matrix.values.data() + std::size_t(to[ab]) * dim * dim;
+        for (unsigned int e = 0; e < dim * dim; ++e)
+          block[e] += from[e];
+      }
+  }
+
+
+
+  template <int dim>
+  void Assembly<dim>::scatter_residual(const unsigned int k)
+  {
+    const auto nodes = active.nodes(k);
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      for (unsigned int d = 0; d < dim; ++d)
+        rest.local_element(nodes[a] * dim + d) += cell_residual[a * dim + d];
+  }
+
+
+
+  namespace
+  {
+    void prepare_cell(const unsigned int   n_nodes,
+                      const unsigned int   dim,
+                      const bool           tangent_wanted,
+                      std::vector<double> &u,
+                      std::vector<double> &residual,
+                      std::vector<double> &matrix,
+                      CellSystem          &system)
+    {
+      const unsigned int n = n_nodes * dim;
+      residual.assign(n, 0.);
+      if (tangent_wanted)
+        matrix.assign(n * n, 0.);
+      system.n        = n_nodes;
+      system.u        = u.data();
+      system.residual = residual.data();
+      system.matrix   = tangent_wanted ? matrix.data() : nullptr;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void Assembly<dim>::assemble_material(const Vector &u,
+                                        const bool    tangent_wanted,
+                                        const Part    part)
+  {
+    std::vector<double> accelerations;
+    CellSystem          system;
+    unsigned int        next_starved = 0;
+    for (unsigned int k = part == Part::boundaries ? active.n_material_cells() :
+                                                     0;
+         k < active.n_cells();
+         ++k)
+      {
+        const auto nodes = active.nodes(k);
+        gather(k, u, cell_u);
+        prepare_cell(nodes.size(),
+                     dim,
+                     tangent_wanted,
+                     cell_u,
+                     cell_residual,
+                     cell_matrix,
+                     system);
+        if (k < active.n_material_cells())
+          {
+            for (const auto &term : terms)
+              term->add(k, system);
+            // In dynamics the mass holds what few points cannot see.
+            if (inertia == nullptr && next_starved < hourglass.cells().size() &&
+                hourglass.cells()[next_starved] == k)
+              hourglass.add(next_starved++, system);
+            if (inertia != nullptr && inertia->consistent())
+              {
+                accelerations.resize(nodes.size() * dim);
+                for (unsigned int a = 0; a < nodes.size(); ++a)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    accelerations[a * dim + d] =
+                      inertia->acceleration(nodes[a] * dim + d,
+                                            cell_u[a * dim + d]);
+                consistent_mass.add(k,
+                                    accelerations.data(),
+                                    inertia->alpha(),
+                                    system);
+              }
+          }
+        else
+          empty_cells.add(k, system);
+        scatter_residual(k);
+        if (tangent_wanted)
+          scatter(k, problem->matrix);
+      }
+  }
+
+
+
+  template <int dim>
+  void Assembly<dim>::assemble_boundaries(const Vector &u,
+                                          const bool    tangent_wanted)
+  {
+    CellSystem system;
+    for (const auto &method : methods)
+      {
+        if (!method->is_active())
+          continue;
+        const auto &ranges = method->particles().ranges();
+        for (unsigned int r = 0; r < ranges.size(); ++r)
+          {
+            const unsigned int k = active.position(ranges[r].cell);
+            if (k == BackgroundGrid<dim>::nowhere)
+              continue;
+            gather(k, u, cell_u);
+            const auto begin_cell = [&]() {
+              prepare_cell(active.nodes(k).size(),
+                           dim,
+                           tangent_wanted,
+                           cell_u,
+                           cell_residual,
+                           cell_matrix,
+                           system);
+            };
+            if (tangent_wanted && problem->has_moderate)
+              {
+                begin_cell();
+                method->add(r, Enforcement::Strength::moderate, system);
+                scatter(k, problem->moderate);
+              }
+            begin_cell();
+            method->add(r, Enforcement::Strength::exact, system);
+            scatter_residual(k);
+            if (tangent_wanted)
+              scatter(k, problem->matrix);
+          }
+      }
+  }
+
+
+
+  /** Lumped mass: a diagonal that each node's owner adds. */
+  template <int dim>
+  void Assembly<dim>::add_inertia(const Vector &u, const bool tangent_wanted)
+  {
+    for (unsigned int i = 0; i < active.n_owned_nodes(); ++i)
+      {
+        const double mass = inertia->mass(i);
+        for (unsigned int d = 0; d < dim; ++d)
+          rest.local_element(i * dim + d) +=
+            mass *
+            inertia->acceleration(i * dim + d, u.local_element(i * dim + d));
+        if (tangent_wanted)
+          {
+            const auto row   = problem->pattern.columns.begin();
+            const auto begin = row + problem->pattern.row_start[i];
+            const auto end   = row + problem->pattern.row_start[i + 1];
+            double    *block = problem->matrix.values.data() +
+                            (std::lower_bound(begin, end, i) - row) * dim * dim;
+            for (unsigned int d = 0; d < dim; ++d)
+              block[d * dim + d] += inertia->alpha() * mass;
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  double Assembly<dim>::assemble(const Vector       &u,
+                                 const Part          part,
+                                 const bool          tangent_wanted,
+                                 const bool          moderate_wanted,
+                                 const Vector       &external,
+                                 const Inertia<dim> *step_inertia,
+                                 LinearProblem<dim> &linear_problem,
+                                 Vector             &residual)
+  {
+    problem = &linear_problem;
+    inertia = step_inertia;
+    rest.reinit(active.unknowns());
+    if (tangent_wanted)
+      {
+        problem->matrix.reinit(problem->pattern);
+        problem->has_moderate = false;
+      }
+    std::string failure;
+    try
+      {
+        assemble_material(u, tangent_wanted, part);
+      }
+    catch (const StepFailed &step_failure)
+      {
+        failure = step_failure.what();
+      }
+    for (const auto &message :
+         Utilities::MPI::all_gather(active.basis().grid().communicator(),
+                                    failure))
+      if (!message.empty())
+        throw StepFailed(message);
+
+    if (inertia != nullptr &&
+        (part == Part::boundaries || !inertia->consistent()))
+      add_inertia(u, tangent_wanted);
+    rest.compress(VectorOperation::add);
+    const double internal = rest.l2_norm();
+    rest.zero_out_ghost_values();
+
+    bool constrained = false;
+    for (const auto &method : methods)
+      constrained |= method->is_active() && method->constrains();
+    if (tangent_wanted && constrained && moderate_wanted)
+      {
+        // what the boundaries add to it comes next
+        problem->has_moderate = true;
+        problem->moderate     = problem->matrix;
+      }
+    Vector before(rest);
+    rest = 0;
+    if (part != Part::material)
+      assemble_boundaries(u, tangent_wanted);
+    rest.compress(VectorOperation::add);
+    const double scale =
+      std::max({internal, rest.l2_norm(), external.l2_norm()});
+    rest += before;
+    rest -= external;
+    residual = rest;
+    return scale;
+  }
+
+
+
+  template <int dim>
+  void Assembly<dim>::update_multipliers(const Vector &u)
+  {
+    for (const auto &method : methods)
+      {
+        if (!method->is_active() || !method->augmented())
+          continue;
+        const auto &ranges = method->particles().ranges();
+        for (unsigned int r = 0; r < ranges.size(); ++r)
+          {
+            const unsigned int k = active.position(ranges[r].cell);
+            if (k == BackgroundGrid<dim>::nowhere)
+              continue;
+            gather(k, u, cell_u);
+            method->update_multipliers(r, cell_u.data());
+          }
+      }
+  }
+
+
+
+  template class Assembly<2>;
+  template class Assembly<3>;
+} // namespace Impoint
