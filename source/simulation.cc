@@ -73,9 +73,7 @@ namespace Impoint
     const auto state = this->state();
     for (const auto &measurement : measurements)
       measurement->start(state);
-    seconds.setup = std::chrono::duration<double>(
-                      std::chrono::steady_clock::now() - start_of_run)
-                      .count();
+    seconds.setup = seconds_since(start_of_run);
   }
 
 
@@ -386,9 +384,7 @@ namespace Impoint
   void Simulation<dim>::end(const std::string &status,
                             const std::string &message)
   {
-    seconds.total = std::chrono::duration<double>(
-                      std::chrono::steady_clock::now() - start_of_run)
-                      .count();
+    seconds.total = seconds_since(start_of_run);
     fill_record();
     run_record.status  = status;
     run_record.message = message;

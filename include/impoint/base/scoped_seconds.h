@@ -5,6 +5,14 @@
 
 namespace Impoint
 {
+  /** Wall-clock seconds that have passed since @p start. */
+  inline double seconds_since(const std::chrono::steady_clock::time_point start)
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                         start)
+      .count();
+  }
+
   /** Adds the wall-clock seconds of its life to @p accumulator. */
   class ScopedSeconds
   {
@@ -16,9 +24,7 @@ namespace Impoint
 
     ~ScopedSeconds()
     {
-      accumulator +=
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
-          .count();
+      accumulator += seconds_since(start);
     }
 
     ScopedSeconds(const ScopedSeconds &)            = delete;
