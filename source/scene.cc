@@ -128,6 +128,14 @@ namespace Impoint
                                "no use for it",
                              "Remove it, or set Kind = dynamic (and Initial "
                              "acceleration = expression) in section 'Time'.");
+        if (!boundaries.empty() && body.thickness != bodies.front().thickness)
+          throw file.error(body.section + "/Thickness",
+                           "body '" + body.name +
+                             "' has another thickness than "
+                             "body '" +
+                             bodies.front().name + "'",
+                           "Boundaries act on one thickness: give all bodies "
+                           "the same.");
         if (!(body.density > 0))
           throw file.error(body.section + "/Density",
                            "the density of body '" + body.name + "' is " +

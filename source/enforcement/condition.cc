@@ -88,12 +88,14 @@ namespace Impoint
                       rotation_axis,
                       "3D: direction of the axis of rotation.",
                       Patterns::List(Patterns::Double(), 0, 3));
-    prm.add_parameter("Moves",
-                      motion,
-                      "How the particles move: with the value that they "
-                      "prescribe, with the material that they hold, or not.",
-                      Patterns::Selection(
-                        "with the value|with the material|not"));
+    prm.add_parameter(
+      "Moves",
+      motion,
+      "How the particles move: with the value that they "
+      "prescribe, with the material that they hold, or not; "
+      "automatic: a traction with the material, others with the "
+      "value.",
+      Patterns::Selection("automatic|with the value|with the material|not"));
     prm.declare_entry("Traction",
                       "",
                       Patterns::Anything(),

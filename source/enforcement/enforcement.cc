@@ -16,7 +16,12 @@ namespace Impoint
       : condition(parameters)
       , motion(std::move(motion))
       , boundary(std::move(particles))
-    {}
+    {
+      if (condition.motion == "automatic")
+        condition.motion = condition.constraint == "traction" ?
+                             "with the material" :
+                             "with the value";
+    }
 
 
 

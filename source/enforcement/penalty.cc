@@ -344,8 +344,11 @@ namespace Impoint
       const auto &range = this->boundary->ranges()[r];
       if (u == nullptr)
         {
+          // What comes here next is met without a gap.
           for (unsigned int b = range.begin; b < range.end; ++b)
-            this->boundary->set_vector(b, slots.force, Tensor<1, dim>());
+            for (const unsigned int slot :
+                 {slots.force, slots.gap, slots.multiplier})
+              this->boundary->set_vector(b, slot, Tensor<1, dim>());
           return;
         }
       const auto        &active = *this->current.active;

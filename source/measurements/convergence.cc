@@ -13,7 +13,7 @@ namespace Impoint
       const auto end =
         std::find_if(residuals.begin(),
                      residuals.end(),
-                     [](const double residual) { return residual < 1e-11; });
+                     [](const double residual) { return residual < 1e-13; });
       if (end - residuals.begin() < 3 || end[-2] >= end[-3])
         return std::numeric_limits<double>::infinity();
       return std::log(end[-1] / end[-2]) / std::log(end[-2] / end[-3]);

@@ -1,3 +1,4 @@
+#include <impoint/base/scoped_seconds.h>
 #include <impoint/output/machine.h>
 #include <impoint/output/results_table.h>
 #include <impoint/output/terminal.h>
@@ -15,13 +16,6 @@ namespace Impoint
   {
     /** More steps than these are not listed one by one. */
     constexpr double many_steps = 50;
-
-    double seconds_since(const std::chrono::steady_clock::time_point &start)
-    {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                           start)
-        .count();
-    }
 
     double fraction_done(const StepReport &report)
     {

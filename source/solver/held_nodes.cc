@@ -2,17 +2,15 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
-#include <cmath>
-
 namespace Impoint
 {
-  /** P K P + largest (1 - P) with the projector P onto what nodes are free to
+  /** P K P + diagonal (1 - P) with the projector P onto what nodes are free to
    * do: P Eqs. 29, 32, 35 without turning unknowns into other frames, which
    * would hide rigid motions from whoever reads the matrix. */
   template <int dim>
   void eliminate(const std::vector<Enforcement::HeldNode<dim>> &held,
                  const unsigned int                             n_owned_nodes,
+                 const double                                   diagonal,
                  BlockMatrix<dim>                              &matrix)
   {
     if (held.empty())
@@ -20,12 +18,9 @@ namespace Impoint
     constexpr unsigned int    none = BackgroundGrid<dim>::nowhere;
     const Tensor<2, dim>      one(unit_symmetric_tensor<dim>());
     const auto               &pattern = *matrix.pattern;
-    double                    largest = 0;
     std::vector<unsigned int> held_at(pattern.n_rows(), none);
     for (unsigned int i = 0; i < held.size(); ++i)
       held_at[held[i].node] = i;
-    for (const double value : matrix.values)
-      largest = std::max(largest, std::abs(value));
 
     const auto treat = [&](const unsigned int row, const std::size_t q) {
       const unsigned int column = pattern.columns[q];
@@ -42,7 +37,7 @@ namespace Impoint
       if (j != none)
         block = block * held[j].projector();
       if (row == column && row < n_owned_nodes)
-        block += largest * (one - held[i].projector());
+        block += diagonal * (one - held[i].projector());
       for (unsigned int r = 0; r < dim; ++r)
         for (unsigned int s = 0; s < dim; ++s)
           values[r * dim + s] = block[r][s];
@@ -77,6 +72,7 @@ namespace Impoint
 #define IMPOINT_INSTANTIATE(dim)                                           \
   template void eliminate(const std::vector<Enforcement::HeldNode<dim>> &, \
                           const unsigned int,                              \
+                          const double,                                    \
                           BlockMatrix<dim> &);                             \
   template void cut(const std::vector<Enforcement::HeldNode<dim>> &,       \
                     const bool,                                            \

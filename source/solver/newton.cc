@@ -106,14 +106,19 @@ namespace Impoint
     // Gaps that hardly touch a node converge ever more slowly. Left at this
     // they still have the stiffness of augmentation, 1e8 E/h.
     constexpr unsigned int max_multiplier_updates = 10;
-    const Vector           start(u);
-    double                 part = 1.;
+    if (!std::isfinite(delta.l2_norm()))
+      throw StepFailed("the linear solver's correction is not a number");
+    const Vector start(u);
+    double       part = 1.;
     for (unsigned int cut = 0;; ++cut, part *= 0.5)
       {
         u = start;
         u.add(part, delta);
         u.update_ghost_values();
-        const bool last = !parameters.line_search || cut == max_cuts;
+        // A cut first correction would leave a part of what conforming
+        // boundaries prescribe: the step is halved instead.
+        const bool last = !parameters.line_search || cut == max_cuts ||
+                          system.brings_prescribed();
         try
           {
             // Multipliers follow full steps only: cut ones are far from them.

@@ -15,6 +15,15 @@ namespace Impoint
 
     // Of one operation, with what sums of a few dozen terms make of it.
     constexpr double machine_precision = 1e-15;
+
+    template <int dim>
+    double largest_entry(const BlockMatrix<dim> &matrix)
+    {
+      double largest = 0;
+      for (const double entry : matrix.values)
+        largest = std::max(largest, std::abs(entry));
+      return largest;
+    }
   } // namespace
 
 
@@ -194,11 +203,9 @@ namespace Impoint
   template <int dim>
   double NonlinearSystem<dim>::round_off(const Vector &u) const
   {
-    double stiffest = 0;
-    for (const double entry : problem.matrix.values)
-      stiffest = std::max(stiffest, std::abs(entry));
-    stiffest =
-      Utilities::MPI::max(stiffest, active.basis().grid().communicator());
+    const double stiffest =
+      Utilities::MPI::max(largest_entry(problem.matrix),
+                          active.basis().grid().communicator());
     const double strain_part =
       points.small_strain() ? 0. : force_scale_of_strain();
     return machine_precision * std::sqrt(double(u.size())) *
@@ -237,7 +244,7 @@ namespace Impoint
     delta.reinit(active.unknowns());
     Vector right(active.unknowns());
 
-    bool prescribed = false;
+    prescribed = false;
     if (first)
       for (const auto &node : held)
         {
@@ -246,8 +253,9 @@ namespace Impoint
             delta.local_element(node.node * dim + d) = value[d];
           prescribed |= value.norm_square() > 0;
         }
-    if (Utilities::MPI::max(int(prescribed),
-                            active.basis().grid().communicator()))
+    const MPI_Comm comm = active.basis().grid().communicator();
+    prescribed          = Utilities::MPI::max(int(prescribed), comm);
+    if (prescribed)
       {
         // the matrix times the prescribed displacements, each rank's part
         problem.matrix.vmult(delta.begin(), right.begin());
@@ -258,9 +266,19 @@ namespace Impoint
     right.update_ghost_values();
 
     cut(held, false, right);
-    eliminate(held, active.n_owned_nodes(), problem.matrix);
-    if (problem.has_moderate)
-      eliminate(held, active.n_owned_nodes(), problem.moderate);
+    if (has_held_nodes())
+      {
+        // the same on all ranks: a node's owner may have none of its cells
+        eliminate(held,
+                  active.n_owned_nodes(),
+                  Utilities::MPI::max(largest_entry(problem.matrix), comm),
+                  problem.matrix);
+        if (problem.has_moderate)
+          eliminate(held,
+                    active.n_owned_nodes(),
+                    Utilities::MPI::max(largest_entry(problem.moderate), comm),
+                    problem.moderate);
+      }
 
     if (new_problem)
       solver.new_pattern(active, problem);

@@ -41,7 +41,7 @@ namespace Impoint
     bool                small_cut_rule = false;
     std::string         normals    = "automatic";    // automatic|particle|nodal
     std::string         value_kind = "displacement"; // displacement|velocity
-    std::string         motion     = "with the value";
+    std::string         motion     = "automatic";
     std::vector<double> rotation_centre, rotation_axis;
     double              from  = std::numeric_limits<double>::lowest();
     double              until = std::numeric_limits<double>::max();

@@ -12,7 +12,7 @@ namespace Impoint
      * two reductions above round-off, log(r_k+1 / r_k) / log(r_k / r_k-1).
      *
      * Results: "NAME iterations": most of a step; "NAME order": smallest of all
-     * steps that have one (left out if none has: three residuals above 1e-11
+     * steps that have one (left out if none has: three residuals above 1e-13
      * are needed). The history has the iterations of each step.
      */
     template <int dim>

@@ -15,6 +15,7 @@ namespace Impoint
   template <int dim>
   void eliminate(const std::vector<Enforcement::HeldNode<dim>> &held,
                  const unsigned int                             n_owned_nodes,
+                 const double                                   diagonal,
                  BlockMatrix<dim>                              &matrix);
 
   /** Takes what is held out of a vector, ghosts included, and puts the

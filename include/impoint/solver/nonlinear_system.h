@@ -79,6 +79,13 @@ namespace Impoint
      */
     void correct(const bool first, Vector &delta);
 
+    /** Whether the last correction holds displacements that conforming
+     * boundaries prescribe, on any rank. */
+    bool brings_prescribed() const
+    {
+      return prescribed;
+    }
+
     void update_multipliers(const Vector &u);
 
     /** Accelerations with which the first step begins (M a = f), as the
@@ -128,8 +135,9 @@ namespace Impoint
     GatheredSolver<dim> solver;
     bool                new_problem = true; // since the solver last heard
     Vector              external, rest, full_rest;
-    const Inertia<dim> *inertia = nullptr;
-    double              scale   = 0; // forces that balance [N]
+    const Inertia<dim> *inertia    = nullptr;
+    double              scale      = 0; // forces that balance [N]
+    bool                prescribed = false;
   };
 } // namespace Impoint
 
