@@ -55,7 +55,7 @@ def main():
         rate = log2(coarse / fine)
         print(f"{scene}, {points} x {points}, no crossing: rate {rate:.3f}")
         expect(rate > 0.95, "rate")
-    # Linear stresses and constant ones in a cell, where the points are: h/(4 l0) x 2/sqrt 3
+    # Constant in a cell, and the points h/(2 sqrt 3) off its centre.
     error = stress_error(CONFORMING, 64, 2, 1e-4)
     expect(abs(error / (0.5 / 3**0.5 / 64) - 1) < 1e-3, "error of a constant stress")
 

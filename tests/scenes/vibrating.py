@@ -22,19 +22,17 @@ def last_period():
 
 
 def main():
-    bounds = {"lumped": 3e-3, "consistent": 1e-3}
-    for mass, bound in bounds.items():
-        results = run_scene("beyond/vibrating-bar.prm", "run",
-                            ["Output/Pictures every = 0", f"Time/Mass = {mass}"])["results"]
-        amplitude, phase = last_period()
-        # Newmark's period is too long by (w dt)^2/12.
-        newmark = -OMEGA * 9.5 * PERIOD * (OMEGA * 0.05) ** 2 / 12
-        energy = results["energy total"]["value"] / 0.03125 - 1
-        print(f"{mass} mass: amplitude {amplitude:.5f}, phase {phase:.4f} rad, of which "
-              f"Newmark's {newmark:.4f}, energy {energy:.1e}")
-        expect(abs(amplitude - 1) < bound, "amplitude")
-        expect(abs(phase - newmark) < 0.02, "phase")
-        expect(-bound < energy < 1e-6, "energy")
+    results = run_scene("beyond/vibrating-bar.prm", "run",
+                        ["Output/Pictures every = 0"])["results"]
+    amplitude, phase = last_period()
+    # Newmark's period is too long by (w dt)^2/12.
+    newmark = -OMEGA * 9.5 * PERIOD * (OMEGA * 0.05) ** 2 / 12
+    energy = results["energy total"]["value"] / 0.03125 - 1
+    print(f"amplitude {amplitude:.5f}, phase {phase:.4f} rad, of which "
+          f"Newmark's {newmark:.4f}, energy {energy:.1e}")
+    expect(abs(amplitude - 1) < 3e-3, "amplitude")
+    expect(abs(phase - newmark) < 0.02, "phase")
+    expect(-3e-3 < energy < 1e-6, "energy")
 
 
 main()
