@@ -182,39 +182,48 @@ namespace Impoint
 
 
 
+  /** Prepares boundaries and balance of a step of length @p dt, with what is
+   * prescribed at time @p end. */
+  template <int dim>
+  void Simulation<dim>::begin_step(const double dt, const double end)
+  {
+    Enforcement::Step<dim> step;
+    step.start  = time;
+    step.end    = end;
+    step.young  = points->young();
+    step.active = &active;
+    step.points = points.get();
+    for (const auto &method : methods)
+      method->begin_step(step);
+    const bool dynamic = scene.time.is_dynamic();
+    if (dynamic)
+      {
+        ScopedSeconds timer(seconds.project);
+        ++counters.projections;
+        inertia.project(active, *points, dt);
+      }
+    system->begin_step(time,
+                       end,
+                       body_force(*points, active, body_forces, end),
+                       dynamic ? &inertia : nullptr);
+  }
+
+
+
   template <int dim>
   void Simulation<dim>::advance(const double dt)
   {
-    const bool dynamic = scene.time.is_dynamic();
     activate(time, time + dt);
-    Enforcement::Step<dim> step;
-    step.start  = time;
-    step.end    = time + dt;
-    step.young  = points->young();
-    step.active = &active;
-    for (const auto &method : methods)
-      method->begin_step(step);
-
-    const auto begin_step = [&]() {
-      if (dynamic)
-        {
-          ScopedSeconds timer(seconds.project);
-          ++counters.projections;
-          inertia.project(active, *points, dt);
-        }
-      system->begin_step(time,
-                         time + dt,
-                         body_force(*points, active, body_forces, time + dt),
-                         dynamic ? &inertia : nullptr);
-    };
-    begin_step();
-    if (dynamic && time == 0 && scene.time.initial == "equilibrium")
+    if (scene.time.is_dynamic() && time == 0 &&
+        scene.time.initial == "equilibrium")
       {
+        // loads and walls as they are at the start
+        begin_step(dt, time);
         Vector accelerations;
         system->initial_acceleration(accelerations);
         set_accelerations(active, accelerations, *points);
-        begin_step();
       }
+    begin_step(dt, time + dt);
 
     u.reinit(active.unknowns());
     u.update_ghost_values();

@@ -42,6 +42,7 @@ namespace Impoint
     void begin();
     void step_through();
     void advance(const double dt);
+    void begin_step(const double dt, const double end);
     void activate(const double start, const double end);
     void find_new_places();
     void commit(const double dt);

@@ -29,8 +29,12 @@ namespace Impoint
       enforcement,
       "Method of a nonconforming boundary. penalty: on each "
       "particle's gap (P Eqs. 42-43); projected penalty: on the "
-      "mean gap of each cell, which does not lock.",
-      Patterns::Selection("penalty|projected penalty"));
+      "mean gap of each cell, which does not lock; lagrange multiplier: one "
+      "for each cell (L); augmented Lagrangian: the same, from a penalty "
+      "factor of yours, with all constraints; implicit boundary: displacements "
+      "that vanish at the boundary by construction (I).",
+      Patterns::Selection("penalty|projected penalty|augmented Lagrangian|"
+                          "lagrange multiplier|implicit boundary"));
     prm.add_parameter("Penalty factor",
                       factor,
                       "Penalty factor beta, in the unit below.",
@@ -41,6 +45,18 @@ namespace Impoint
       "E/h: beta is a multiple of Young's modulus over the cell "
       "size (largest of all bodies); Pa/m: beta is absolute.",
       Patterns::Selection("E/h|Pa/m"));
+    prm.add_parameter(
+      "Superfluous constraints",
+      superfluous,
+      "Cells whose nodes their constrained neighbours determine: keep or "
+      "remove their constraint (L Section 3.2.2). Kept ones make multipliers "
+      "oscillate. automatic: removed by 'lagrange multiplier' only.",
+      Patterns::Selection("automatic|keep|remove"));
+    prm.add_parameter("Band width",
+                      band_width,
+                      "Width delta of the band of an implicit boundary, in "
+                      "units of the cell size h.",
+                      Patterns::Double(1e-12, 1.));
     prm.add_parameter(
       "Small-cut rule",
       small_cut_rule,
@@ -176,8 +192,15 @@ namespace Impoint
     refuse(!traction, {"Traction"}, kind);
     refuse(traction, {"Value", "Rotation angle"}, kind);
     refuse(conforming || traction,
-           {"Enforcement", "Penalty factor", "Penalty unit", "Small-cut rule"},
+           {"Enforcement",
+            "Penalty factor",
+            "Penalty unit",
+            "Superfluous constraints",
+            "Band width",
+            "Small-cut rule"},
            kind);
+    // What only another enforcement looks at stays: the enforcement of a scene
+    // is changed in one line.
     refuse(constraint != "slip" || conforming, {"Normals"}, kind);
     refuse(conforming, {"Moves", "Rotation angle"}, kind);
     refuse(!turns,

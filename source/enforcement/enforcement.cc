@@ -1,5 +1,7 @@
 #include <impoint/base/parameter_file.h>
 #include <impoint/enforcement/enforcement.h>
+#include <impoint/enforcement/implicit_boundary.h>
+#include <impoint/enforcement/lagrange_multiplier.h>
 #include <impoint/enforcement/penalty.h>
 #include <impoint/enforcement/traction.h>
 
@@ -46,7 +48,19 @@ namespace Impoint
 
 
     template <int dim>
-    void Method<dim>::update_multipliers(const unsigned int, const double *)
+    void Method<dim>::update_multipliers(const unsigned int, CellSystem &)
+    {}
+
+
+
+    template <int dim>
+    void Method<dim>::remember_multipliers()
+    {}
+
+
+
+    template <int dim>
+    void Method<dim>::cut_multipliers(const double)
     {}
 
 
@@ -116,9 +130,7 @@ namespace Impoint
 
     template <int dim>
     std::vector<unsigned int>
-    cells(const std::vector<std::unique_ptr<Method<dim>>> &methods,
-          const double                                     start,
-          const double                                     end)
+    cells(const Methods<dim> &methods, const double start, const double end)
     {
       std::vector<unsigned int> result;
       for (const auto &method : methods)
@@ -145,13 +157,19 @@ namespace Impoint
           std::move(motion),
           std::move(particles),
           Expression<dim>(file, parameters.section + "/Traction", dim));
-      for (const bool projected : {false, true})
-        if (parameters.enforcement ==
-            (projected ? "projected penalty" : "penalty"))
-          return std::make_unique<Penalty<dim>>(parameters,
-                                                std::move(motion),
-                                                std::move(particles),
-                                                projected);
+      const std::string &name = parameters.enforcement;
+      if (name == "penalty" || name == "projected penalty")
+        return std::make_unique<Penalty<dim>>(parameters,
+                                              std::move(motion),
+                                              std::move(particles));
+      if (name == "augmented Lagrangian" || name == "lagrange multiplier")
+        return std::make_unique<LagrangeMultiplier<dim>>(parameters,
+                                                         std::move(motion),
+                                                         std::move(particles));
+      if (name == "implicit boundary")
+        return std::make_unique<ImplicitBoundary<dim>>(parameters,
+                                                       std::move(motion),
+                                                       std::move(particles));
       throw file.error(parameters.section + "/Enforcement",
                        "no enforcement is called '" + parameters.enforcement +
                          "'",
@@ -161,13 +179,9 @@ namespace Impoint
     template class Method<2>;
     template class Method<3>;
     template std::vector<unsigned int>
-    cells(const std::vector<std::unique_ptr<Method<2>>> &,
-          const double,
-          const double);
+    cells(const Methods<2> &, const double, const double);
     template std::vector<unsigned int>
-    cells(const std::vector<std::unique_ptr<Method<3>>> &,
-          const double,
-          const double);
+    cells(const Methods<3> &, const double, const double);
     template std::unique_ptr<Method<2>>
     create(const ParameterFile &,
            const ConditionParameters &,

@@ -42,12 +42,13 @@ namespace Impoint
 
 
   template <int dim>
-  double MaterialPoints<dim>::young() const
+  const Materials::Material<dim> &MaterialPoints<dim>::stiffest_material() const
   {
-    double largest = 0;
-    for (const auto &material : materials)
-      largest = std::max(largest, material->young());
-    return largest;
+    return **std::max_element(materials.begin(),
+                              materials.end(),
+                              [](const auto &a, const auto &b) {
+                                return a->young() < b->young();
+                              });
   }
 
 

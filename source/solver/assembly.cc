@@ -99,26 +99,21 @@ namespace Impoint
 
 
 
-  namespace
+  /** Makes @p system the empty one of active cell k, at its cell_u. */
+  template <int dim>
+  void Assembly<dim>::begin_cell(const unsigned int k,
+                                 const bool         tangent_wanted,
+                                 CellSystem        &system)
   {
-    void prepare_cell(const unsigned int   n_nodes,
-                      const unsigned int   dim,
-                      const bool           tangent_wanted,
-                      std::vector<double> &u,
-                      std::vector<double> &residual,
-                      std::vector<double> &matrix,
-                      CellSystem          &system)
-    {
-      const unsigned int n = n_nodes * dim;
-      residual.assign(n, 0.);
-      if (tangent_wanted)
-        matrix.assign(n * n, 0.);
-      system.n        = n_nodes;
-      system.u        = u.data();
-      system.residual = residual.data();
-      system.matrix   = tangent_wanted ? matrix.data() : nullptr;
-    }
-  } // namespace
+    system.n             = active.nodes(k).size();
+    const unsigned int n = system.n * dim;
+    cell_residual.assign(n, 0.);
+    if (tangent_wanted)
+      cell_matrix.assign(n * n, 0.);
+    system.u        = cell_u.data();
+    system.residual = cell_residual.data();
+    system.matrix   = tangent_wanted ? cell_matrix.data() : nullptr;
+  }
 
 
 
@@ -130,20 +125,13 @@ namespace Impoint
     std::vector<double> accelerations;
     CellSystem          system;
     unsigned int        next_starved = 0;
-    for (unsigned int k = part == Part::boundaries ? active.n_material_cells() :
-                                                     0;
-         k < active.n_cells();
-         ++k)
+    const unsigned int  first =
+      part == Part::constraints ? active.n_material_cells() : 0;
+    for (unsigned int k = first; k < active.n_cells(); ++k)
       {
         const auto nodes = active.nodes(k);
         gather(k, u, cell_u);
-        prepare_cell(nodes.size(),
-                     dim,
-                     tangent_wanted,
-                     cell_u,
-                     cell_residual,
-                     cell_matrix,
-                     system);
+        begin_cell(k, tangent_wanted, system);
         if (k < active.n_material_cells())
           {
             for (const auto &term : terms)
@@ -178,41 +166,31 @@ namespace Impoint
 
   template <int dim>
   void Assembly<dim>::assemble_boundaries(const Vector &u,
-                                          const bool    tangent_wanted)
+                                          const bool    tangent_wanted,
+                                          const Part    part)
   {
     CellSystem system;
     for (const auto &method : methods)
       {
-        if (!method->is_active())
+        if (!method->is_active() ||
+            (part == Part::loads && method->constrains()) ||
+            (part == Part::constraints && !method->constrains()))
           continue;
-        const auto &ranges = method->particles().ranges();
-        for (unsigned int r = 0; r < ranges.size(); ++r)
-          {
-            const unsigned int k = active.position(ranges[r].cell);
-            if (k == BackgroundGrid<dim>::nowhere)
-              continue;
+        Enforcement::for_active_ranges(
+          *method, active, [&](const unsigned int r, const unsigned int k) {
             gather(k, u, cell_u);
-            const auto begin_cell = [&]() {
-              prepare_cell(active.nodes(k).size(),
-                           dim,
-                           tangent_wanted,
-                           cell_u,
-                           cell_residual,
-                           cell_matrix,
-                           system);
-            };
             if (tangent_wanted && problem->has_moderate)
               {
-                begin_cell();
+                begin_cell(k, true, system);
                 method->add(r, Enforcement::Strength::moderate, system);
                 scatter(k, problem->moderate);
               }
-            begin_cell();
+            begin_cell(k, tangent_wanted, system);
             method->add(r, Enforcement::Strength::exact, system);
             scatter_residual(k);
             if (tangent_wanted)
               scatter(k, problem->matrix);
-          }
+          });
       }
   }
 
@@ -278,7 +256,7 @@ namespace Impoint
         throw StepFailed(message);
 
     if (inertia != nullptr &&
-        (part == Part::boundaries || !inertia->consistent()))
+        (part == Part::constraints || !inertia->consistent()))
       add_inertia(u, tangent_wanted);
     rest.compress(VectorOperation::add);
     const double internal = rest.l2_norm();
@@ -295,8 +273,7 @@ namespace Impoint
       }
     Vector before(rest);
     rest = 0;
-    if (part != Part::material)
-      assemble_boundaries(u, tangent_wanted);
+    assemble_boundaries(u, tangent_wanted, part);
     rest.compress(VectorOperation::add);
     const double scale =
       std::max({internal, rest.l2_norm(), external.l2_norm()});
@@ -309,25 +286,23 @@ namespace Impoint
 
 
   template <int dim>
-  void Assembly<dim>::update_multipliers(const Vector &u)
+  void Assembly<dim>::update_multipliers(const Vector &u, Vector &change)
   {
+    rest.reinit(active.unknowns());
+    CellSystem system;
     for (const auto &method : methods)
-      {
-        if (!method->is_active() || !method->augmented())
-          continue;
-        const auto &ranges = method->particles().ranges();
-        for (unsigned int r = 0; r < ranges.size(); ++r)
-          {
-            const unsigned int k = active.position(ranges[r].cell);
-            if (k == BackgroundGrid<dim>::nowhere)
-              continue;
+      if (method->is_active() && method->augmented())
+        Enforcement::for_active_ranges(
+          *method, active, [&](const unsigned int r, const unsigned int k) {
             gather(k, u, cell_u);
-            method->update_multipliers(r, cell_u.data());
-          }
-      }
+            begin_cell(k, false, system);
+            method->update_multipliers(r, system);
+            scatter_residual(k);
+          });
+    rest.compress(VectorOperation::add);
+    rest.zero_out_ghost_values();
+    change = rest;
   }
-
-
 
   template class Assembly<2>;
   template class Assembly<3>;

@@ -200,13 +200,14 @@ namespace Impoint
   template <int dim>
   void GatheredSolver<dim>::solve(const LinearProblem<dim> &local,
                                   const Vector             &b,
-                                  Vector                   &x)
+                                  Vector                   &x,
+                                  const double              looser)
   {
     const unsigned int  n_own = active->n_owned_nodes() * dim;
     std::vector<double> own(b.begin(), b.begin() + n_own), solution;
     if (alone)
       {
-        solver.solve(local, own, solution);
+        solver.solve(local, own, solution, looser);
         std::copy(solution.begin(), solution.end(), x.begin());
         return;
       }
@@ -214,7 +215,9 @@ namespace Impoint
     std::vector<double> whole_b;
     for (const auto &part : parts)
       whole_b.insert(whole_b.end(), part.begin(), part.end());
-    as_one(comm, on_root, [&]() { solver.solve(gathered, whole_b, solution); });
+    as_one(comm, on_root, [&]() {
+      solver.solve(gathered, whole_b, solution, looser);
+    });
     solution                = Utilities::MPI::broadcast(comm, solution);
     const std::size_t first = x.get_partitioner()->local_range().first;
     std::copy(solution.begin() + first,

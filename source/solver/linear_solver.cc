@@ -94,6 +94,7 @@ namespace Impoint
     /** Solves with what was made for an earlier matrix, if that pays. */
     bool try_old(const LinearProblem<dim>  &problem,
                  const std::vector<double> &b,
+                 const double               tolerance,
                  std::vector<double>       &x);
 
     IterationResult iterate(const LinearProblem<dim>  &problem,
@@ -175,7 +176,8 @@ namespace Impoint
   bool
   LinearSolver<dim>::Implementation::try_old(const LinearProblem<dim>  &problem,
                                              const std::vector<double> &b,
-                                             std::vector<double>       &x)
+                                             const double         tolerance,
+                                             std::vector<double> &x)
   {
     if (distrusted > 0)
       {
@@ -183,7 +185,7 @@ namespace Impoint
         return false;
       }
     IterationControl control;
-    control.tolerance      = parameters.tolerance;
+    control.tolerance      = tolerance;
     control.max_iterations = most_iterations_of_old();
     control.give_up_early  = true;
     const bool served      = iterate(problem, b, control, x).converged;
@@ -238,8 +240,14 @@ namespace Impoint
   template <int dim>
   void LinearSolver<dim>::solve(const LinearProblem<dim>  &problem,
                                 const std::vector<double> &b,
-                                std::vector<double>       &x)
+                                std::vector<double>       &x,
+                                const double               looser)
   {
+    constexpr double loosest = 1e-2;
+    const double     tolerance =
+      std::max(implementation->parameters.tolerance,
+               std::min(loosest,
+                        looser * implementation->parameters.tolerance));
     Implementation &data = *implementation;
     Assert(b.size() == problem.pattern.n_rows() * dim,
            ExcDimensionMismatch(b.size(), problem.pattern.n_rows() * dim));
@@ -248,13 +256,13 @@ namespace Impoint
         data.factor.vmult(b, x);
         return;
       }
-    if (data.exists && !data.current && data.try_old(problem, b, x))
+    if (data.exists && !data.current && data.try_old(problem, b, tolerance, x))
       return;
     if (!data.current)
       data.renew(problem);
 
     IterationControl control;
-    control.tolerance            = data.parameters.tolerance;
+    control.tolerance            = tolerance;
     control.max_iterations       = data.parameters.max_iterations;
     const IterationResult result = data.iterate(problem, b, control, x);
     data.iterations_when_new =

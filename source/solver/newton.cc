@@ -53,7 +53,7 @@ namespace Impoint
          ++iteration)
       {
         ++counters.newton_iterations;
-        system.correct(iteration == 0, delta);
+        system.correct(iteration == 0, u, delta);
         if (system.is_linear())
           {
             u += delta;
@@ -103,9 +103,6 @@ namespace Impoint
   {
     constexpr double       worst_growth = 2.;
     constexpr unsigned int max_cuts     = 8;
-    // Gaps that hardly touch a node converge ever more slowly. Left at this
-    // they still have the stiffness of augmentation, 1e8 E/h.
-    constexpr unsigned int max_multiplier_updates = 10;
     if (!std::isfinite(delta.l2_norm()))
       throw StepFailed("the linear solver's correction is not a number");
     const Vector start(u);
@@ -121,9 +118,7 @@ namespace Impoint
                           system.brings_prescribed();
         try
           {
-            // Multipliers follow full steps only: cut ones are far from them.
-            if (cut == 0 && history.size() <= max_multiplier_updates)
-              system.update_multipliers(u);
+            system.cut_multipliers(part);
             tangent_is_new        = tangent_wanted && cut == 0;
             const double residual = system.evaluate(u, tangent_is_new);
             // The first correction brings prescribed displacements in: there

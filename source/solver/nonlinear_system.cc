@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Impoint
 {
@@ -76,14 +77,6 @@ namespace Impoint
 
 
   template <int dim>
-  void NonlinearSystem<dim>::update_multipliers(const Vector &u)
-  {
-    assembly.update_multipliers(u);
-  }
-
-
-
-  template <int dim>
   void NonlinearSystem<dim>::new_active_set()
   {
     ScopedSeconds timer(seconds.pattern);
@@ -127,13 +120,11 @@ namespace Impoint
     problem.enforced.assign(active.n_nodes(), false);
     for (const auto &method : methods)
       if (method->is_active() && method->constrains())
-        for (const auto &range : method->particles().ranges())
-          {
-            const unsigned int k = active.position(range.cell);
-            if (k != BackgroundGrid<dim>::nowhere)
-              for (const unsigned int i : active.nodes(k))
-                problem.enforced[i] = true;
-          }
+        Enforcement::for_active_ranges(
+          *method, active, [&](const unsigned int, const unsigned int k) {
+            for (const unsigned int i : active.nodes(k))
+              problem.enforced[i] = true;
+          });
   }
 
 
@@ -141,8 +132,7 @@ namespace Impoint
   template <int dim>
   bool NonlinearSystem<dim>::is_linear() const
   {
-    return points.small_strain() && points.constant_tangent() &&
-           !is_augmented();
+    return points.small_strain() && points.constant_tangent();
   }
 
 
@@ -237,13 +227,12 @@ namespace Impoint
 
 
 
+  /** The displacements that conforming boundaries prescribe, in the first
+   * correction of a step. */
   template <int dim>
-  void NonlinearSystem<dim>::correct(const bool first, Vector &delta)
+  void NonlinearSystem<dim>::prescribe(const bool first, Vector &delta)
   {
-    ScopedSeconds timer(seconds.solve);
     delta.reinit(active.unknowns());
-    Vector right(active.unknowns());
-
     prescribed = false;
     if (first)
       for (const auto &node : held)
@@ -253,8 +242,49 @@ namespace Impoint
             delta.local_element(node.node * dim + d) = value[d];
           prescribed |= value.norm_square() > 0;
         }
-    const MPI_Comm comm = active.basis().grid().communicator();
-    prescribed          = Utilities::MPI::max(int(prescribed), comm);
+    prescribed = Utilities::MPI::max(int(prescribed),
+                                     active.basis().grid().communicator());
+  }
+
+
+
+  /** Hands the solver the last tangent without what conforming boundaries
+   * hold. */
+  template <int dim>
+  void NonlinearSystem<dim>::prepare_solver()
+  {
+    const MPI_Comm comm      = active.basis().grid().communicator();
+    const auto     cut_nodes = [&](BlockMatrix<dim> &matrix) {
+      // the same on all ranks: a node's owner may have none of its cells
+      eliminate(held,
+                active.n_owned_nodes(),
+                Utilities::MPI::max(largest_entry(matrix), comm),
+                matrix);
+    };
+    if (has_held_nodes())
+      {
+        cut_nodes(problem.matrix);
+        if (problem.has_moderate)
+          cut_nodes(problem.moderate);
+      }
+    if (new_problem)
+      solver.new_pattern(active, problem);
+    solver.new_matrix(problem);
+    if (new_problem && inertia == nullptr)
+      solver.check_rigid_modes(problem);
+    new_problem = false;
+  }
+
+
+
+  template <int dim>
+  void NonlinearSystem<dim>::correct(const bool    first,
+                                     const Vector &u,
+                                     Vector       &delta)
+  {
+    ScopedSeconds timer(seconds.solve);
+    Vector        right(active.unknowns());
+    prescribe(first, delta);
     if (prescribed)
       {
         // the matrix times the prescribed displacements, each rank's part
@@ -264,31 +294,69 @@ namespace Impoint
     right += full_rest;
     right *= -1.;
     right.update_ghost_values();
-
     cut(held, false, right);
-    if (has_held_nodes())
-      {
-        // the same on all ranks: a node's owner may have none of its cells
-        eliminate(held,
-                  active.n_owned_nodes(),
-                  Utilities::MPI::max(largest_entry(problem.matrix), comm),
-                  problem.matrix);
-        if (problem.has_moderate)
-          eliminate(held,
-                    active.n_owned_nodes(),
-                    Utilities::MPI::max(largest_entry(problem.moderate), comm),
-                    problem.moderate);
-      }
-
-    if (new_problem)
-      solver.new_pattern(active, problem);
-    solver.new_matrix(problem);
-    if (new_problem && inertia == nullptr)
-      solver.check_rigid_modes(problem);
-    new_problem = false;
+    prepare_solver();
     solver.solve(problem, right, delta);
     delta.update_ghost_values();
     cut(held, first, delta);
+
+    multiplier_forces.reinit(active.unknowns());
+    if (is_augmented())
+      find_multipliers(u, delta);
+  }
+
+
+
+  /**
+   * Makes delta the correction with the multipliers that go with it: the
+   * linear system with multipliers, solved by repeated solutions without them
+   * (the method of multipliers). Each reduces the gap by the factor gamma.
+   */
+  template <int dim>
+  void NonlinearSystem<dim>::find_multipliers(const Vector &u, Vector &delta)
+  {
+    // Gaps that hardly touch a node converge slowly; left after that many
+    // solutions they still have the stiffness gamma.
+    constexpr unsigned int max_solutions = 10;
+    constexpr double       tolerance     = 1e-13;
+
+    for (const auto &method : methods)
+      method->remember_multipliers();
+    const double reference = rest.l2_norm();
+    double       last      = std::numeric_limits<double>::max();
+    Vector       place, change, more;
+    for (unsigned int solution = 0; solution < max_solutions; ++solution)
+      {
+        place = u;
+        place += delta;
+        place.update_ghost_values();
+        assembly.update_multipliers(place, change);
+        multiplier_forces += change;
+        change *= -1.;
+        change.update_ghost_values();
+        cut(held, false, change);
+        const double size = change.l2_norm();
+        if (size <= tolerance * force_scale())
+          return;
+        more.reinit(active.unknowns());
+        solver.solve(problem, change, more, std::max(1., reference / size));
+        more.update_ghost_values();
+        cut(held, false, more);
+        delta += more;
+        delta.update_ghost_values();
+        if (size > 0.5 * last)
+          return; // round-off
+        last = size;
+      }
+  }
+
+
+
+  template <int dim>
+  void NonlinearSystem<dim>::cut_multipliers(const double fraction)
+  {
+    for (const auto &method : methods)
+      method->cut_multipliers(fraction);
   }
 
 
@@ -301,6 +369,8 @@ namespace Impoint
     problem.matrix.vmult(delta.begin(), product.begin());
     product.compress(VectorOperation::add);
     product += rest;
+    product += multiplier_forces;
+    cut(held, false, product);
     return product.l2_norm() / force_scale();
   }
 
@@ -332,13 +402,14 @@ namespace Impoint
                         problem,
                         residual);
     };
-    assemble(Assembly<dim>::Part::material, false, nullptr, forces);
-    assemble(Assembly<dim>::Part::boundaries, true, inertia, full_rest);
+    assemble(Assembly<dim>::Part::loads, false, nullptr, forces);
+    assemble(Assembly<dim>::Part::constraints, true, inertia, full_rest);
     full_rest = forces;
     full_rest.update_ghost_values();
+    rest = full_rest;
     for (auto &node : held)
       node.value = {};
-    correct(true, w);
+    correct(true, zero, w);
     accelerations = w;
     accelerations *= inertia->alpha();
     accelerations.update_ghost_values();

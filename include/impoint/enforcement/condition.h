@@ -37,7 +37,9 @@ namespace Impoint
     std::string         components;           // of a roller
     std::string         enforcement    = "projected penalty";
     double              factor         = 1e4;
-    std::string         factor_unit    = "E/h"; // E/h|Pa/m
+    std::string         factor_unit    = "E/h";       // E/h|Pa/m
+    std::string         superfluous    = "automatic"; // automatic|keep|remove
+    double              band_width     = 1e-6;        // [h]
     bool                small_cut_rule = false;
     std::string         normals    = "automatic";    // automatic|particle|nodal
     std::string         value_kind = "displacement"; // displacement|velocity

@@ -4,6 +4,7 @@
 #include <impoint/enforcement/condition.h>
 #include <impoint/grid/active_nodes.h>
 #include <impoint/particles/boundary_particles.h>
+#include <impoint/particles/material_points.h>
 #include <impoint/terms/term.h>
 
 #include <memory>
@@ -18,9 +19,10 @@ namespace Impoint
     template <int dim>
     struct Step
     {
-      double                  start = 0, end = 0; // time [s]
-      double                  young  = 0;         // [Pa], the stiffest material
-      const ActiveNodes<dim> *active = nullptr;
+      double                     start = 0, end = 0; // time [s]
+      double                     young  = 0; // [Pa], the stiffest material
+      const ActiveNodes<dim>    *active = nullptr;
+      const MaterialPoints<dim> *points = nullptr;
     };
 
     /** Strength with which a method adds itself to a matrix. */
@@ -79,17 +81,24 @@ namespace Impoint
         return true;
       }
 
-      /** Whether multipliers() changes anything: one more iteration. */
+      /** Whether the condition holds by multipliers, which a linear solve has
+       * to find together with the displacements. */
       virtual bool augmented() const
       {
         return false;
       }
 
-      /** Multipliers from the gaps of a cell's displacements. */
-      virtual void update_multipliers(const unsigned int r, const double *u);
+      /** New multipliers from the gaps at the displacements of @p system, to
+       * whose residual it adds what that changes. */
+      virtual void update_multipliers(const unsigned int r, CellSystem &system);
+
+      /** Before and after a correction that may be cut: goes back to the part
+       * @p fraction of how the multipliers changed in between. */
+      virtual void remember_multipliers();
+      virtual void cut_multipliers(const double fraction);
 
       /** Stores gap, force and multiplier of the converged step for range
-       * @p r; @p u is null where the cell is not active. */
+       * @p r; @p u is null where the condition does not act. */
       virtual void end_step(const unsigned int r, const double *u) = 0;
 
       /** Where the particles will be at the end of the step: of the particles
@@ -118,14 +127,31 @@ namespace Impoint
       bool                                    active_now = false;
     };
 
+    template <int dim>
+    using Methods = std::vector<std::unique_ptr<Method<dim>>>;
+
+    /** Calls function(r, k) for the ranges r of @p method's particles whose
+     * cell is active, k being its place among the active ones. */
+    template <int dim, typename Function>
+    void for_active_ranges(const Method<dim>      &method,
+                           const ActiveNodes<dim> &active,
+                           const Function         &function)
+    {
+      const auto &ranges = method.particles().ranges();
+      for (unsigned int r = 0; r < ranges.size(); ++r)
+        {
+          const unsigned int k = active.position(ranges[r].cell);
+          if (k != BackgroundGrid<dim>::nowhere)
+            function(r, k);
+        }
+    }
+
     /** This rank's cells with particles of the methods that act from @p start
      * to
      * @p end, increasing. */
     template <int dim>
     std::vector<unsigned int>
-    cells(const std::vector<std::unique_ptr<Method<dim>>> &methods,
-          const double                                     start,
-          const double                                     end);
+    cells(const Methods<dim> &methods, const double start, const double end);
 
     /** The method named by @p parameters. Throws InputError. */
     template <int dim>

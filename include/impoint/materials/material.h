@@ -95,6 +95,9 @@ namespace Impoint
                            const bool              tangent_wanted,
                            Response<dim>          &response) const = 0;
 
+      /** Tangent of the virgin material at rest. */
+      VoigtMatrix<dim> elastic_tangent() const;
+
       /** Young's modulus of the virgin material [Pa]: the scale of penalties.
        */
       virtual double young() const = 0;

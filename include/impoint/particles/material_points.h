@@ -66,10 +66,9 @@ namespace Impoint
     {
       return *materials[body(p)];
     }
-    const std::vector<std::shared_ptr<Material>> &all_materials() const
-    {
-      return materials;
-    }
+
+    /** The one with the largest Young's modulus: the scale of penalties. */
+    const Material &stiffest_material() const;
 
     Tensor<1, dim> vector(const unsigned int p, const unsigned int at) const
     {
@@ -98,8 +97,10 @@ namespace Impoint
                  Materials::Response<dim>    &response,
                  double                      *new_history) const;
 
-    /** Largest Young's modulus of all materials: the scale of penalties. */
-    double young() const;
+    double young() const
+    {
+      return stiffest_material().young();
+    }
 
     bool small_strain() const
     {

@@ -24,13 +24,13 @@ namespace Impoint
   {
   public:
     using Vector  = LinearAlgebra::distributed::Vector<double>;
-    using Methods = std::vector<std::unique_ptr<Enforcement::Method<dim>>>;
+    using Methods = Enforcement::Methods<dim>;
 
     enum class Part
     {
       all,
-      material,  // and inertia: no boundaries
-      boundaries // with empty cells and lumped inertia: no material
+      loads,      // material, inertia and tractions
+      constraints // boundaries that hold, empty cells and lumped inertia
     };
 
     Assembly(const ActiveNodes<dim>    &active,
@@ -67,13 +67,20 @@ namespace Impoint
                 const Vector        &u,
                 std::vector<double> &cell_u) const;
 
-    void update_multipliers(const Vector &u);
+    /** New multipliers from the gaps at @p u; @p change receives what that
+     * changes in the residual. Collective. */
+    void update_multipliers(const Vector &u, Vector &change);
 
   private:
     void assemble_material(const Vector &u,
                            const bool    tangent_wanted,
                            const Part    part);
-    void assemble_boundaries(const Vector &u, const bool tangent_wanted);
+    void assemble_boundaries(const Vector &u,
+                             const bool    tangent_wanted,
+                             const Part    part);
+    void begin_cell(const unsigned int k,
+                    const bool         tangent_wanted,
+                    CellSystem        &system);
     void add_inertia(const Vector &u, const bool tangent_wanted);
     void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
     void scatter_residual(const unsigned int k);

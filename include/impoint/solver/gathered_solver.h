@@ -29,7 +29,10 @@ namespace Impoint
                      const LinearProblem<dim> &local);
     bool iterative(const ActiveNodes<dim> &active) const;
     void new_matrix(const LinearProblem<dim> &local);
-    void solve(const LinearProblem<dim> &local, const Vector &b, Vector &x);
+    void solve(const LinearProblem<dim> &local,
+               const Vector             &b,
+               Vector                   &x,
+               const double              looser = 1.);
 
     /** Throws RunFailed if a part of the bodies can move as a rigid body at no
      * cost: statics has no answer to that. */

@@ -82,12 +82,14 @@ namespace Impoint
     void new_matrix(const LinearProblem<dim> &problem);
 
     /**
-     * x = A^-1 b, to the tolerance on the preconditioned residual. Throws
+     * x = A^-1 b, to the tolerance on the preconditioned residual, times
+     * @p looser where b is the small rest of a larger right-hand side. Throws
      * StepFailed if the matrix is singular or the iteration does not converge.
      */
     void solve(const LinearProblem<dim>  &problem,
                const std::vector<double> &b,
-               std::vector<double>       &x);
+               std::vector<double>       &x,
+               const double               looser = 1.);
 
     /** "CHOLMOD (supernodal)" or "CG, band + geometric multigrid" ... */
     std::string description() const;

@@ -21,7 +21,7 @@ namespace Impoint
   {
   public:
     using Vector  = typename Assembly<dim>::Vector;
-    using Methods = typename Assembly<dim>::Methods;
+    using Methods = Enforcement::Methods<dim>;
 
     NonlinearSystem(const ActiveNodes<dim>             &active,
                     const MaterialPoints<dim>          &points,
@@ -50,7 +50,7 @@ namespace Impoint
     /** Whether one iteration solves the step. */
     bool is_linear() const;
 
-    /** Whether multipliers change between iterations. */
+    /** Whether some condition holds by multipliers. */
     bool is_augmented() const;
 
     /**
@@ -67,17 +67,16 @@ namespace Impoint
      */
     double round_off(const Vector &u) const;
 
-    /** Residual of the last evaluation. */
-    const Vector &residual() const
-    {
-      return rest;
-    }
-
     /**
-     * Newton's correction for the last tangent and residual. @p first adds the
-     * displacements that conforming boundaries prescribe. Collective.
+     * Newton's correction for the last tangent and residual, at @p u. @p first
+     * adds the displacements that conforming boundaries prescribe. Multipliers
+     * of boundaries are brought up to date with it. Collective.
      */
-    void correct(const bool first, Vector &delta);
+    void correct(const bool first, const Vector &u, Vector &delta);
+
+    /** After a correction was cut to the part @p fraction: cuts that of the
+     * multipliers. */
+    void cut_multipliers(const double fraction);
 
     /** Whether the last correction holds displacements that conforming
      * boundaries prescribe, on any rank. */
@@ -85,8 +84,6 @@ namespace Impoint
     {
       return prescribed;
     }
-
-    void update_multipliers(const Vector &u);
 
     /** Accelerations with which the first step begins (M a = f), as the
      * boundaries allow; begin_step() comes before. Collective. */
@@ -121,6 +118,9 @@ namespace Impoint
   private:
     double force_scale() const;
     double force_scale_of_strain() const;
+    void   prescribe(const bool first, Vector &delta);
+    void   prepare_solver();
+    void   find_multipliers(const Vector &u, Vector &delta);
 
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;
@@ -138,6 +138,7 @@ namespace Impoint
     const Inertia<dim> *inertia    = nullptr;
     double              scale      = 0; // forces that balance [N]
     bool                prescribed = false;
+    Vector multiplier_forces; // what new multipliers changed in the residual
   };
 } // namespace Impoint
 

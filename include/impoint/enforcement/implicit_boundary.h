@@ -1,0 +1,79 @@
+#ifndef impoint_enforcement_implicit_boundary_h
+#define impoint_enforcement_implicit_boundary_h
+
+#include <impoint/base/voigt.h>
+#include <impoint/enforcement/enforcement.h>
+
+#include <vector>
+
+namespace Impoint
+{
+  namespace Enforcement
+  {
+    /**
+     * The implicit boundary method: displacements u' = D u + u_a with a
+     * function D that rises from 0 at the boundary to 1 within a band of width
+     * delta (I Eqs. 13-16). The integrals of D' D' and D D' across the band,
+     * 4 / (3 delta) and 1/2, are exact, which leaves integrals along the
+     * boundary over its particles (I Eqs. 21-22, 26-28):
+     *   K3 = 4 / (3 delta) int N^T (n.C.n) N,   K2 = int W B^T C n N,
+     * n inward, on the gap between material and wall. W = 1/2 for a fixed
+     * boundary; on a slip one D acts on the normal displacement alone, and the
+     * strains of the tangential one count whole: W = 1 - n x n / 2 (I Eqs.
+     * 23-24). Where two boundaries meet, their products (I Eq. 15) differ from
+     * the sum in an area of delta^2 only.
+     *
+     * C is the elastic tangent of the virgin material in the cell: where a
+     * material yields, the boundary stays as stiff. The traction at the start
+     * of the step enters as the mean of the cell's points. Both only shift the
+     * gap, by the order of delta.
+     */
+    template <int dim>
+    class ImplicitBoundary : public Method<dim>
+    {
+    public:
+      ImplicitBoundary(const ConditionParameters              &parameters,
+                       PrescribedMotion<dim>                   motion,
+                       std::unique_ptr<BoundaryParticles<dim>> particles);
+
+      void begin_step(const Step<dim> &step) override;
+      void add(const unsigned int r,
+               const Strength     strength,
+               CellSystem        &system) const override;
+      void end_step(const unsigned int r, const double *u) override;
+
+    private:
+      /** What a range's particles need to know of the material. */
+      struct CellState
+      {
+        VoigtMatrix<dim> tangent = {};
+        Tensor<2, dim>   stress; // at the start of the step
+      };
+
+      /** The condition at a particle. */
+      struct Condition
+      {
+        Tensor<2, dim> held;     // projector onto what is held
+        Tensor<2, dim> acoustic; // held part of n.C.n [Pa]
+        Tensor<1, dim> gap;      // held part [m]
+        Tensor<1, dim> traction; // on the wall [Pa]
+
+        // per node: held traction n.C of its displacement, weighted by W
+        std::vector<Tensor<2, dim>> flux;
+      };
+
+      CellState cell_state(const unsigned int r) const;
+      double    inverse_width(const unsigned int r) const; // 4 / (3 delta)
+      void      evaluate(const unsigned int r,
+                         const unsigned int b,
+                         const unsigned int n,
+                         const double      *u,
+                         Condition         &condition) const;
+
+      const bool             slip;
+      std::vector<CellState> states; // per range
+    };
+  } // namespace Enforcement
+} // namespace Impoint
+
+#endif

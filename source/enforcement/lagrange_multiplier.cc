@@ -1,0 +1,69 @@
+#include <impoint/enforcement/lagrange_multiplier.h>
+
+#include <algorithm>
+
+namespace Impoint
+{
+  namespace Enforcement
+  {
+    namespace
+    {
+      // In units of E/h. A linear solve reduces the gap by this factor, and
+      // looses its reciprocal in digits of the material's stiffness.
+      constexpr double best_factor = 1e5;
+    } // namespace
+
+
+
+    template <int dim>
+    LagrangeMultiplier<dim>::LagrangeMultiplier(
+      const ConditionParameters              &parameters,
+      PrescribedMotion<dim>                   motion,
+      std::unique_ptr<BoundaryParticles<dim>> particles)
+      : GapMethod<dim>(parameters,
+                       std::move(motion),
+                       std::move(particles),
+                       true)
+      , user_chooses_factor(parameters.enforcement == "augmented Lagrangian")
+    {}
+
+
+
+    template <int dim>
+    typename GapMethod<dim>::Law
+    LagrangeMultiplier<dim>::law(const unsigned int r, const double area) const
+    {
+      Law law;
+      law.augmented = true;
+      law.gamma     = user_chooses_factor ?
+                        this->factor(r) :
+                        this->enlarge(best_factor * this->unit(r), r, area);
+      return law;
+    }
+
+
+
+    template <int dim>
+    bool
+    LagrangeMultiplier<dim>::raises_small_values(const unsigned int r) const
+    {
+      if (!this->condition.small_cut_rule)
+        return false;
+      const auto        &range = this->boundary->ranges()[r];
+      const unsigned int n =
+        this->current.active->basis().n_nodes_of(range.cell);
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          double largest = 0;
+          for (unsigned int b = range.begin; b < range.end; ++b)
+            largest = std::max(largest, this->boundary->support(b)[a]);
+          if (largest <= this->small_cut_value)
+            return true;
+        }
+      return false;
+    }
+
+    template class LagrangeMultiplier<2>;
+    template class LagrangeMultiplier<3>;
+  } // namespace Enforcement
+} // namespace Impoint
