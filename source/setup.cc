@@ -2,6 +2,8 @@
 #include <impoint/particles/seeding.h>
 #include <impoint/setup.h>
 
+#include <algorithm>
+
 namespace Impoint
 {
   namespace
@@ -13,10 +15,39 @@ namespace Impoint
       InitialState(const ParameterFile &file, const BodyParameters &body)
         : velocity(file, body.section + "/Initial velocity", dim)
         , acceleration(file, body.section + "/Initial acceleration", dim)
-        , stress(file, body.section + "/Initial stress", Voigt<dim>::n)
+        , n_stresses(n_stress_components(file.value(stress_path(body))))
+        , stress(file, stress_path(body), n_stresses)
       {}
 
-      Expression<dim> velocity, acceleration, stress;
+      static std::string stress_path(const BodyParameters &body)
+      {
+        return body.section + "/Initial stress";
+      }
+
+      /** In 2D the component zz may be left out. */
+      static unsigned int n_stress_components(const std::string &text)
+      {
+        const unsigned int n = Voigt<dim>::n;
+        return dim == 2 && std::count(text.begin(), text.end(), ';') == n ?
+                 n + 1 :
+                 n;
+      }
+
+      Materials::Response<dim> stress_at(const Point<dim> &x) const
+      {
+        Materials::Response<dim> result;
+        if (stress.is_zero())
+          return result;
+        for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
+          result.stress[k] = stress.value(x, 0., k);
+        if (n_stresses > Voigt<dim>::n)
+          result.stress_zz = stress.value(x, 0., Voigt<dim>::n);
+        return result;
+      }
+
+      Expression<dim> velocity, acceleration;
+      unsigned int    n_stresses;
+      Expression<dim> stress;
     };
   } // namespace
 
@@ -38,7 +69,8 @@ namespace Impoint
         initial.emplace_back(file, body);
         carried.n_history =
           std::max(carried.n_history, materials.back()->n_history());
-        carried.initial_stress |= !initial.back().stress.is_zero();
+        carried.initial_stress |= !initial.back().stress.is_zero() &&
+                                  !materials.back()->starts_from_stress();
       }
 
     auto points =
@@ -67,15 +99,16 @@ namespace Impoint
             state[slots.volume] = volume;
             state[slots.mass]   = volume * body.density;
             state[slots.body]   = b;
-            for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
-              {
-                const double stress     = initial[b].stress.is_zero() ?
-                                            0. :
-                                            initial[b].stress.value(seed.x, 0., k);
-                state[slots.stress + k] = stress;
-                if (carried.initial_stress)
-                  state[slots.initial_stress + k] = stress;
-              }
+            const auto stress   = initial[b].stress_at(seed.x);
+            for (const unsigned int slot : {slots.stress, slots.initial_stress})
+              if (slot != PropertyLayout::absent)
+                {
+                  std::copy(stress.stress.begin(),
+                            stress.stress.end(),
+                            state.begin() + slot);
+                  if (dim == 2)
+                    state[slot + Voigt<dim>::n] = stress.stress_zz;
+                }
             if (carried.dynamic)
               {
                 put(slots.v, initial[b].velocity.vector(seed.x, 0.));
@@ -83,7 +116,7 @@ namespace Impoint
                   put(slots.a, initial[b].acceleration.vector(seed.x, 0.));
               }
             if (carried.n_history > 0)
-              materials[b]->initialise(state.data() + slots.history);
+              materials[b]->initialise(stress, state.data() + slots.history);
             particles.push_back(
               {seed.cell,
                types::particle_index(first_number + seed.number),

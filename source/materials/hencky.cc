@@ -7,17 +7,6 @@ namespace Impoint
 {
   namespace Materials
   {
-    namespace
-    {
-      /** ln(1 + x) / x, to round-off everywhere. */
-      inline double log1p_quotient(const double x)
-      {
-        return x == 0 ? 1 : std::log1p(x) / x;
-      }
-    } // namespace
-
-
-
     template <int dim>
     Hencky<dim>::Hencky(const ElasticModuli &moduli)
       : moduli(moduli)

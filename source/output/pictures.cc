@@ -23,6 +23,8 @@ namespace Impoint
     NamedField       stress{"Cauchy stress", 6, {}};
     NamedField       J{"J", 1, {}};
     NamedField       body{"body", 1, {}}, id{"id", 1, {}};
+    NamedField       plastic_strain{"plastic strain", 1, {}};
+    const bool       plastic = points.carried().n_history > 0;
     const auto       put =
       [&](NamedField &field, const unsigned int p, const unsigned int slot) {
         const double *state = points.data(p) + slot;
@@ -46,12 +48,17 @@ namespace Impoint
           sigma[2] = state[slots.stress + Voigt<dim>::n] / divisor;
         stress.data.insert(stress.data.end(), sigma.begin(), sigma.end());
         J.data.push_back(jacobian);
+        if (plastic)
+          plastic_strain.data.push_back(
+            points.material(p).plastic_strain(state + slots.history));
         body.data.push_back(points.body(p));
         id.data.push_back(points.id(p));
       }
     result.fields = {displacement, stress, J, body, id};
     if (dynamic)
       result.fields.push_back(velocity);
+    if (plastic)
+      result.fields.push_back(plastic_strain);
     return result;
   }
 

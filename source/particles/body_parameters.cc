@@ -101,8 +101,9 @@ namespace Impoint
       "Initial stress",
       "",
       Patterns::Anything(),
-      "Expressions of x, y(, z), tension positive: xx; yy; xy or "
-      "xx; yy; zz; xy; xz; yz [Pa]; empty: none.");
+      "Expressions of x, y(, z), tension positive: in 2D xx; yy; xy or xx; yy; "
+      "xy; zz (zz is 0 if left out), in 3D xx; yy; zz; xy; xz; yz [Pa]; empty: "
+      "none. Plastic models begin with its elastic strain.");
     prm.leave_subsection();
     prm.leave_subsection();
     mesh.declare(file, section + "/Mesh", "", "");

@@ -16,7 +16,9 @@ namespace Impoint
     , v(layout.add("velocity", carried.dynamic ? dim : 0))
     , a(layout.add("acceleration", carried.dynamic ? dim : 0))
     , initial_stress(layout.add("initial stress",
-                                carried.initial_stress ? Voigt<dim>::n : 0))
+                                carried.initial_stress ?
+                                  Voigt<dim>::n + (dim == 2 ? 1 : 0) :
+                                  0))
     , history(layout.add("history", carried.n_history))
   {}
 
@@ -36,6 +38,7 @@ namespace Impoint
       {
         all_small_strain &= material->small_strain();
         all_constant &= material->constant_tangent();
+        all_symmetric &= material->symmetric_tangent();
       }
   }
 
@@ -50,6 +53,34 @@ namespace Impoint
                                 return a->young() < b->young();
                               });
   }
+
+
+
+  namespace
+  {
+    // A constant second Piola-Kirchhoff stress has no part in the Lie
+    // derivative of the Kirchhoff stress: the tangent stays as it is.
+    template <int dim>
+    void add_initial_stress(const double             *initial,
+                            const Tensor<2, dim>     &F,
+                            Materials::Response<dim> &response)
+    {
+      for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
+        {
+          const unsigned int i = Voigt<dim>::row(k), j = Voigt<dim>::column(k);
+          for (unsigned int l = 0; l < Voigt<dim>::n; ++l)
+            {
+              const unsigned int r = Voigt<dim>::row(l),
+                                 s = Voigt<dim>::column(l);
+              response.stress[k] +=
+                F[i][r] * initial[l] * F[j][s] +
+                (r == s ? 0. : F[i][s] * initial[l] * F[j][r]);
+            }
+        }
+      if constexpr (dim == 2)
+        response.stress_zz += initial[Voigt<dim>::n];
+    }
+  } // namespace
 
 
 
@@ -84,23 +115,10 @@ namespace Impoint
                      tangent_wanted,
                      response);
 
-    // A constant second Piola-Kirchhoff stress has no part in the Lie
-    // derivative of the Kirchhoff stress: the tangent stays as it is. (Models
-    // in rate form started from the initial stress.)
-    if (carried_state.initial_stress && !material.small_strain())
-      for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
-        {
-          const unsigned int i = Voigt<dim>::row(k), j = Voigt<dim>::column(k);
-          for (unsigned int l = 0; l < Voigt<dim>::n; ++l)
-            {
-              const unsigned int r = Voigt<dim>::row(l),
-                                 s = Voigt<dim>::column(l);
-              const double S       = state[slot.initial_stress + l];
-              response.stress[k] +=
-                deformation.F[i][r] * S * deformation.F[j][s] +
-                (r == s ? 0. : deformation.F[i][s] * S * deformation.F[j][r]);
-            }
-        }
+    if (carried_state.initial_stress && !material.starts_from_stress())
+      add_initial_stress<dim>(state + slot.initial_stress,
+                              deformation.F,
+                              response);
   }
 
   template class MaterialPoints<2>;

@@ -1,6 +1,7 @@
 // The material of a scene: defaults, every model, messages for wrong values.
 
 #include <impoint/base/parameter_file.h>
+#include <impoint/materials/elastoplastic.h>
 #include <impoint/materials/hencky.h>
 #include <impoint/materials/linear_elastic.h>
 #include <impoint/materials/neo_hookean.h>
@@ -61,6 +62,27 @@ int main()
   check<NeoHookean>("neo-Hookean");
   check<Hencky>("Hencky");
 
+  // the same step yields by different amounts
+  const auto plastic = [](const std::string              &name,
+                          const std::vector<std::string> &entries) {
+    std::vector<std::string> all = entries;
+    all.insert(all.end(), {"Model = " + name, "Young's modulus = 1e3"});
+    const auto          created = create(all);
+    std::vector<double> history(created->n_history(), 0.), after(history);
+    Deformation<2>      bar;
+    bar.grad_increment[0][0] = 0.5;
+    bar.grad_increment[1][1] = -0.5;
+    Response<2> response;
+    created->respond(bar, history.data(), after.data(), true, response);
+    std::cout << name << ": stress = " << response.stress[1]
+              << (created->symmetric_tangent() ? ", associated\n" : "\n");
+  };
+  plastic("Mohr-Coulomb", {"Friction angle = 30"});
+  plastic("Mohr-Coulomb",
+          {"Friction angle = 30", "Cohesion = 50", "Dilation angle = 30"});
+  plastic("Drucker-Prager", {"Friction angle = 30"});
+  plastic("von Mises", {"Yield stress = 90"});
+
   const auto by_default = create({"Young's modulus = 1"});
   std::cout << "default: " << (by_default->small_strain() ? "small" : "finite")
             << " strains\n";
@@ -72,4 +94,15 @@ int main()
   refuse({"Young's modulus = 1", "Poisson's ratio = -1"});
   refuse({"Young's modulus = 1", "Poisson's ratio = 0.6"});
   refuse({"Young's modulus = 1", "Model = rubber"});
+  refuse({"Young's modulus = 1", "Cohesion = 5"});
+  refuse({"Young's modulus = 1", "Model = Mohr-Coulomb"});
+  refuse({"Young's modulus = 1",
+          "Model = Mohr-Coulomb",
+          "Friction angle = 20",
+          "Dilation angle = 25"});
+  refuse({"Young's modulus = 1", "Model = von Mises"});
+  refuse({"Young's modulus = 1",
+          "Model = von Mises",
+          "Yield stress = 1",
+          "Softening residual = 0.5"});
 }

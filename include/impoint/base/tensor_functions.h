@@ -5,9 +5,17 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <cmath>
+
 namespace Impoint
 {
   using namespace dealii;
+
+  /** ln(1 + x) / x, to round-off everywhere. */
+  inline double log1p_quotient(const double x)
+  {
+    return x == 0 ? 1 : std::log1p(x) / x;
+  }
 
   /** H = F - 1, exact for F near 1: what keeps small strains from drowning in
    * the round-off of quantities of order one. */

@@ -29,6 +29,11 @@ namespace Impoint
         return true;
       }
 
+      bool starts_from_stress() const override
+      {
+        return true;
+      }
+
       void respond(const Deformation<dim> &deformation,
                    const double           *old_history,
                    double                 *history,

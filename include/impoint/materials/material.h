@@ -74,15 +74,37 @@ namespace Impoint
         return false;
       }
 
+      /** Whether the tangent has major symmetry; plastic flow that isn't
+       * associated has not. */
+      virtual bool symmetric_tangent() const
+      {
+        return true;
+      }
+
+      /** Whether respond() starts from the stress of the step before (rate form
+       * or history), so that an initial stress is part of its answer. */
+      virtual bool starts_from_stress() const
+      {
+        return false;
+      }
+
       /** Number of doubles of history a point carries. */
       virtual unsigned int n_history() const
       {
         return 0;
       }
 
-      /** The history of a virgin point. */
-      virtual void initialise(double * /*history*/) const
+      /** The history of a virgin point under the stress of @p initial. */
+      virtual void initialise(const Response<dim> & /*initial*/,
+                              double * /*history*/) const
       {}
+
+      /** Equivalent plastic strain of a point: the sum of sqrt(2/3) |dev| of
+       * its plastic increments. */
+      virtual double plastic_strain(const double * /*history*/) const
+      {
+        return 0;
+      }
 
       /**
        * Stress and, if @p tangent_wanted, tangent at the end of the step.

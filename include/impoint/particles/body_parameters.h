@@ -12,8 +12,9 @@ namespace Impoint
    * A body: its shape, how points fill it, its density and initial state.
    *
    * The entries "Initial velocity" [m/s], "Body force" (per mass, [m/s2]) and
-   * "Initial stress" ([Pa], Voigt order of base/voigt.h) are declared here and
-   * read by Expression from the section; empty means zero.
+   * "Initial stress" ([Pa], Voigt order of base/voigt.h, then zz in 2D if
+   * given) are declared here and read by Expression from the section; empty
+   * means zero.
    */
   struct BodyParameters
   {

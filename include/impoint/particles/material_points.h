@@ -41,7 +41,7 @@ namespace Impoint
       unsigned int   volume; // at the start [m3]
       unsigned int   body;   // number
       unsigned int   v, a;   // velocity, acceleration; dynamic scenes only
-      unsigned int   initial_stress; // second Piola-Kirchhoff, Voigt
+      unsigned int   initial_stress; // second Piola-Kirchhoff, as stress
       unsigned int   history;
     };
 
@@ -110,6 +110,10 @@ namespace Impoint
     {
       return all_constant;
     }
+    bool symmetric_tangent() const
+    {
+      return all_symmetric;
+    }
 
   private:
     Slots                                  slot;
@@ -117,6 +121,7 @@ namespace Impoint
     std::vector<std::shared_ptr<Material>> materials;
     bool                                   all_small_strain = true;
     bool                                   all_constant     = true;
+    bool                                   all_symmetric    = true;
   };
 } // namespace Impoint
 

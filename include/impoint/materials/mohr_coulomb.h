@@ -1,0 +1,52 @@
+#ifndef impoint_materials_mohr_coulomb_h
+#define impoint_materials_mohr_coulomb_h
+
+#include <impoint/materials/yield_surface.h>
+
+namespace Impoint
+{
+  namespace Materials
+  {
+    /**
+     * Mohr-Coulomb's surface, for sigma_1 >= sigma_2 >= sigma_3 (tension
+     * positive) f = (1 + sin phi) sigma_1 - (1 - sin phi) sigma_3 - 2 c cos
+     * phi, with plastic flow of the same form with the dilation angle psi.
+     *
+     * The return is exact, for in principal stresses all is linear: to a plane,
+     * to one of the two edges beside it, or to the apex (J. Clausen, L.
+     * Damkilde, L. Andersen, An efficient return algorithm for non-associated
+     * plasticity with linear yield criteria in principal stress space,
+     * Computers & Structures 85, 2007). Without cohesion the apex is the state
+     * without stress.
+     */
+    class MohrCoulomb : public YieldSurface
+    {
+    public:
+      /** Angles in degrees, 0 <= @p dilation <= @p friction < 90;
+       * @p cohesion >= 0 [Pa], above 0 if there is no friction. */
+      MohrCoulomb(const double cohesion,
+                  const double friction,
+                  const double dilation);
+
+      bool associated() const override
+      {
+        return sin_friction == sin_dilation;
+      }
+
+      void return_map(const ElasticModuli         &moduli,
+                      const std::array<double, 3> &trial_strain,
+                      const double                 strength,
+                      PrincipalReturn             &result) const override;
+
+      /** Value of the yield function [Pa]. */
+      double yield_function(std::array<double, 3> stress,
+                            const double          strength) const;
+
+    private:
+      const double cohesion;
+      const double sin_friction, cos_friction, sin_dilation;
+    };
+  } // namespace Materials
+} // namespace Impoint
+
+#endif
