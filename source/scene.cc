@@ -148,6 +148,13 @@ namespace Impoint
         conditions[i].check(file, dim, boundaries[i].kind == "conforming");
       }
     time.check(file);
+    if (time.is_dynamic() && grid.basis == "quadratic")
+      throw file.error("Grid/Basis",
+                       "a dynamic scene with a 'quadratic' basis: its lumped "
+                       "masses, with which velocities are projected, need not "
+                       "be positive",
+                       "Set Basis = quadratic spline on a Cartesian grid, or "
+                       "Basis = linear.");
     for (const auto &measurement : measurements)
       measurement.check(file, dim);
     check_support(file);

@@ -32,7 +32,7 @@ namespace Impoint
                                              "option --output")
     , terminal(scene.output.verbosity, comm)
     , grid(file, scene.grid, comm)
-    , basis(grid)
+    , basis(grid, file, scene.grid)
     , active(basis)
     , points(place_bodies(file, scene, basis))
     , conforming(basis)

@@ -40,6 +40,15 @@ namespace Impoint
                          "Use an id that the grid's generator or file gives; "
                          "rectangles and boxes have 0 to 2 dim - 1 (left, "
                          "right, bottom, top, back, front).");
+      if (!basis.can_hold(boundary_id))
+        throw file.error(parameters.section + "/Boundary id",
+                         "a '" + basis.name() +
+                           "' basis holds only sides of the box around the "
+                           "grid, and the part with id " +
+                           std::to_string(boundary_id) + " lies inside of it",
+                         "Set 'Kind = nonconforming' and give the boundary a "
+                         "shape, or set Basis = linear or quadratic in section "
+                         "'Grid'.");
       boundaries.push_back(std::move(boundary));
     }
 

@@ -207,48 +207,109 @@ namespace Impoint
 
 
   template <int dim>
+  Tensor<1, dim>
+  BackgroundGrid<dim>::Lattice::coordinates(const Point<dim> &x) const
+  {
+    Tensor<1, dim> place = transpose(axes) * (x - origin);
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] /= spacing[d];
+    return place;
+  }
+
+
+
+  template <int dim>
+  std::array<int, dim>
+  BackgroundGrid<dim>::lattice_place(const unsigned int c) const
+  {
+    const Tensor<1, dim> coordinates = frame.coordinates(corner[c]);
+    std::array<int, dim> place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = static_cast<int>(std::lround(coordinates[d]));
+    return place;
+  }
+
+
+
+  /** Sets the inverse Jacobian that all cells of a lattice have: that of the
+   * first cell of the lowest rank that knows any. */
+  template <int dim>
+  bool BackgroundGrid<dim>::agree_on_axes(Tensor<2, dim> &inverse_of_all) const
+  {
+    std::vector<double> first;
+    for (unsigned int c = 0; c < n_cells() && first.empty(); ++c)
+      if (is_known(c))
+        for (unsigned int i = 0; i < dim * dim; ++i)
+          first.push_back(inverse_jacobian[c][i / dim][i % dim]);
+    bool found = false;
+    for (const auto &entries : Utilities::MPI::all_gather(comm, first))
+      for (unsigned int i = 0; i < entries.size() && !found; ++i)
+        {
+          inverse_of_all[i / dim][i % dim] = entries[i];
+          found                            = i + 1 == entries.size();
+        }
+
+    bool good = true;
+    for (unsigned int c = 0; c < n_cells(); ++c)
+      if (is_known(c))
+        good = good && affine[c] &&
+               (inverse_jacobian[c] - inverse_of_all).norm() <
+                 1e-8 * inverse_of_all.norm();
+    return Utilities::MPI::min(int(good), comm) != 0;
+  }
+
+
+
+  template <int dim>
   void BackgroundGrid<dim>::detect_lattice()
   {
-    // Every rank looks at its own cells against the frame of its first one;
-    // all generated Cartesian meshes give all ranks the same frame.
-    bool         good  = !is_simplicial;
-    unsigned int first = 0;
-    while (first < n_cells() && !is_known(first))
-      ++first;
-    good = good && first < n_cells() && affine[first];
-    if (good)
+    Tensor<2, dim> inverse;
+    if (is_simplicial || !agree_on_axes(inverse))
+      return;
+    const Tensor<2, dim> jacobian = invert(inverse);
+    for (unsigned int k = 0; k < dim; ++k)
       {
-        const Tensor<2, dim> jacobian = invert(inverse_jacobian[first]);
-        for (unsigned int k = 0; k < dim; ++k)
-          {
-            Tensor<1, dim> edge;
-            for (unsigned int d = 0; d < dim; ++d)
-              edge[d] = jacobian[d][k];
-            frame.spacing[k] = edge.norm();
-            for (unsigned int d = 0; d < dim; ++d)
-              frame.axes[d][k] = edge[d] / frame.spacing[k];
-          }
-        const Tensor<2, dim> gram = transpose(frame.axes) * frame.axes;
-        good = (gram - unit_symmetric_tensor<dim>()).norm() < 1e-9;
+        Tensor<1, dim> edge;
+        for (unsigned int d = 0; d < dim; ++d)
+          edge[d] = jacobian[d][k];
+        frame.spacing[k] = edge.norm();
+        for (unsigned int d = 0; d < dim; ++d)
+          frame.axes[d][k] = edge[d] / frame.spacing[k];
       }
-    Tensor<1, dim> lowest;
+    const Tensor<2, dim> gram = transpose(frame.axes) * frame.axes;
+    if ((gram - unit_symmetric_tensor<dim>()).norm() > 1e-9)
+      return;
+
+    Point<dim>     lowest;
+    Tensor<1, dim> highest;
     for (unsigned int d = 0; d < dim; ++d)
-      lowest[d] = std::numeric_limits<double>::max();
-    for (unsigned int c = 0; good && c < n_cells(); ++c)
+      {
+        lowest[d]  = std::numeric_limits<double>::max();
+        highest[d] = std::numeric_limits<double>::lowest();
+        for (unsigned int c = 0; c < n_cells(); ++c)
+          if (is_known(c))
+            {
+              const double place = (transpose(frame.axes) * corner[c])[d];
+              lowest[d]          = std::min(lowest[d], place);
+              highest[d]         = std::max(highest[d], place);
+            }
+        lowest[d]        = Utilities::MPI::min(lowest[d], comm);
+        highest[d]       = Utilities::MPI::max(highest[d], comm);
+        frame.n_cells[d] = 1 + static_cast<int>(std::lround(
+                                 (highest[d] - lowest[d]) / frame.spacing[d]));
+      }
+    frame.origin = Point<dim>(frame.axes * lowest);
+
+    // parts of a grid may stand off each other by a part of a cell
+    bool good = true;
+    for (unsigned int c = 0; c < n_cells(); ++c)
       if (is_known(c))
         {
-          good = affine[c] &&
-                 (inverse_jacobian[c] - inverse_jacobian[first]).norm() <
-                   1e-8 * inverse_jacobian[first].norm();
-          const Tensor<1, dim> place = transpose(frame.axes) * corner[c];
+          const Tensor<1, dim> place = frame.coordinates(corner[c]);
           for (unsigned int d = 0; d < dim; ++d)
-            lowest[d] = std::min(lowest[d], place[d]);
+            good = good && std::abs(place[d] - std::round(place[d])) < 1e-6;
         }
-    frame.exists = Utilities::MPI::min(int(good), comm);
-    if (frame.exists)
-      for (unsigned int d = 0; d < dim; ++d)
-        lowest[d] = Utilities::MPI::min(lowest[d], comm);
-    frame.origin = Point<dim>(frame.axes * lowest);
+    frame.exists = Utilities::MPI::min(int(good), comm) != 0;
   }
 
 

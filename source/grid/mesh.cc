@@ -147,6 +147,14 @@ namespace Impoint
     MeshParameters::declare(scene, "Grid", "hyper_cube", "0 : 1");
     auto &prm = scene.handler();
     prm.enter_subsection("Grid");
+    prm.add_parameter("Basis",
+                      basis,
+                      "Functions that carry the displacement. linear and "
+                      "quadratic: on the cells, whatever they are; splines: "
+                      "continuous gradients, on Cartesian grids (rotated and "
+                      "shifted as you like).",
+                      Patterns::Selection("linear|quadratic|quadratic spline|"
+                                          "cubic spline"));
     prm.add_parameter("Refine where",
                       refine_where,
                       "Expression of x, y(, z): cells at whose centre it is "

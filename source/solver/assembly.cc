@@ -38,9 +38,13 @@ namespace Impoint
   template <int dim>
   std::size_t Assembly<dim>::find_starved_cells()
   {
+    // Only linear functions: splines have about one function a cell, which
+    // the points of several cells see, and Hourglass would not leave quadratic
+    // fields alone.
+    const bool                linear  = active.basis().degree() == 1;
     const unsigned int        n_rigid = dim * (dim + 1) / 2;
     std::vector<unsigned int> starved;
-    for (unsigned int k = 0; k < active.n_material_cells(); ++k)
+    for (unsigned int k = 0; linear && k < active.n_material_cells(); ++k)
       {
         const unsigned int n     = active.nodes(k).size();
         const auto        &range = points.ranges()[k];

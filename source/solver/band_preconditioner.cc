@@ -12,6 +12,9 @@ namespace Impoint
   {
     constexpr unsigned int left_out = numbers::invalid_unsigned_int;
 
+    /** The outer functions of splines have small stiffnesses by nature. */
+    constexpr double spline_sliver_factor = 10.;
+
     /** The largest diagonal entry of a node among its free unknowns (conforming
      * conditions leave rows with nothing but a diagonal of any size); negative
      * if none is free. */
@@ -120,7 +123,8 @@ namespace Impoint
   }
 
   template <int dim>
-  void BandPreconditioner<dim>::find_slivers(const BlockMatrix<dim> &matrix)
+  void BandPreconditioner<dim>::find_slivers(const BlockMatrix<dim> &matrix,
+                                             const bool              splines)
   {
     std::vector<double> diagonal(matrix.pattern->n_rows());
     for (unsigned int node = 0; node < diagonal.size(); ++node)
@@ -136,7 +140,8 @@ namespace Impoint
       {
         const auto median = free.begin() + free.size() / 2;
         std::nth_element(free.begin(), median, free.end());
-        threshold = sliver_threshold * *median;
+        threshold =
+          (splines ? spline_sliver_factor : 1.) * sliver_threshold * *median;
       }
     slivers.resize(diagonal.size());
     for (unsigned int node = 0; node < diagonal.size(); ++node)
@@ -186,7 +191,8 @@ namespace Impoint
         v_cycle_name = "geometric multigrid";
         v_cycle      = std::make_unique<Multigrid<dim>>(outer.pattern,
                                                    select_nodes(problem.lattice,
-                                                                outer_nodes));
+                                                                outer_nodes),
+                                                   problem.lines);
       }
   }
 
@@ -197,7 +203,8 @@ namespace Impoint
     const BlockMatrix<dim> &moderate =
       problem.has_moderate ? problem.moderate : problem.matrix;
     const std::vector<char> old_slivers = slivers;
-    find_slivers(moderate);
+    find_slivers(moderate,
+                 !problem.lines.empty() && problem.lines[0].degree > 1);
     if (!serves(problem) || slivers != old_slivers)
       {
         enforced = problem.enforced;

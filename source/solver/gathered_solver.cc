@@ -130,11 +130,10 @@ namespace Impoint
           }
       }
     const auto all = Utilities::MPI::gather(comm, nodes, 0);
-    // Ranks without a node have an empty lattice whatever the grid.
-    const bool has_lattice =
-      Utilities::MPI::max(int(!local.lattice.empty()), comm);
     if (!on_root)
       return;
+    const bool has_lattice   = !local.lines.empty();
+    gathered.lines           = local.lines;
     const unsigned int n_all = n_unknowns / dim;
     gathered.regularisation.assign(n_all, 0.);
     gathered.enforced.assign(n_all, false);
@@ -164,7 +163,7 @@ namespace Impoint
   bool GatheredSolver<dim>::iterative(const ActiveNodes<dim> &nodes) const
   {
     return solver.iterative(nodes.unknowns()->size(),
-                            nodes.basis().grid().lattice().exists);
+                            !nodes.basis().lines().empty());
   }
 
 

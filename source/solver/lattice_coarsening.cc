@@ -11,10 +11,14 @@ namespace Impoint
   using namespace dealii;
 
   template <int dim>
-  LatticeCoarsening<dim>::LatticeCoarsening(const BlockPattern &pattern,
-                                            const Lattice      &lattice)
+  LatticeCoarsening<dim>::LatticeCoarsening(
+    const BlockPattern            &pattern,
+    const Lattice                 &lattice,
+    const std::vector<SplineLine> &lines)
   {
-    find_parents(lattice);
+    for (const SplineLine &line : lines)
+      coarse_lines.emplace_back(line.degree, (line.n_cells + 1) / 2);
+    find_parents(lattice, lines);
     find_half_products(pattern);
     const Children children = find_children();
     build_pattern(children);
@@ -22,30 +26,36 @@ namespace Impoint
   }
 
   template <int dim>
-  void LatticeCoarsening<dim>::find_parents(const Lattice &lattice)
+  void
+  LatticeCoarsening<dim>::find_parents(const Lattice                 &lattice,
+                                       const std::vector<SplineLine> &lines)
   {
     // Parents first as places, then numbered in lexicographic order.
     Lattice places;
     parent_start.assign(1, 0);
     for (const std::array<int, dim> &node : lattice)
       {
-        double       weight = 1;
-        unsigned int odd    = 0;
+        int          first[dim], n[dim];
+        double       factors[dim][SplineLine::max_degree + 1];
+        unsigned int n_parents = 1;
         for (unsigned int d = 0; d < dim; ++d)
-          if (node[d] & 1)
-            {
-              odd |= 1u << d;
-              weight *= 0.5;
-            }
-        for (unsigned int corner = 0; corner < (1u << dim); ++corner)
-          if ((corner & ~odd) == 0)
-            {
-              std::array<int, dim> place;
-              for (unsigned int d = 0; d < dim; ++d)
-                place[d] = (node[d] >> 1) + ((corner >> d) & 1);
-              places.push_back(place);
-              weights.push_back(weight);
-            }
+          {
+            n[d] =
+              lines[d].refine(coarse_lines[d], node[d], first[d], factors[d]);
+            n_parents *= n[d];
+          }
+        for (unsigned int i = 0; i < n_parents; ++i)
+          {
+            std::array<int, dim> place;
+            double               weight = 1;
+            for (unsigned int d = 0, rest = i; d < dim; rest /= n[d], ++d)
+              {
+                place[d] = first[d] + rest % n[d];
+                weight *= factors[d][rest % n[d]];
+              }
+            places.push_back(place);
+            weights.push_back(weight);
+          }
         parent_start.push_back(places.size());
       }
 
@@ -196,12 +206,12 @@ namespace Impoint
           {
             const double      *a      = &fine.values[k * block];
             const unsigned int column = fine.pattern->columns[k];
-            const double weight = weights[parent_start[column]]; // all alike
             for (std::size_t link = parent_start[column];
                  link < parent_start[column + 1];
                  ++link)
               {
-                double *sum = &row[*half_position++ * block];
+                double      *sum    = &row[*half_position++ * block];
+                const double weight = weights[link];
                 for (unsigned int i = 0; i < block; ++i)
                   sum[i] += weight * a[i];
               }
@@ -256,6 +266,12 @@ namespace Impoint
   LatticeCoarsening<dim>::lattice() const
   {
     return coarse_lattice;
+  }
+
+  template <int dim>
+  const std::vector<SplineLine> &LatticeCoarsening<dim>::lines() const
+  {
+    return coarse_lines;
   }
 
   template class LatticeCoarsening<2>;

@@ -66,11 +66,13 @@ namespace Impoint
                       "Stiffness of boundary conditions in the V-cycle of the "
                       "preconditioner [E/h].",
                       Patterns::Double(1e-3));
-    prm.add_parameter("Sliver",
-                      sliver,
-                      "Nodes with a diagonal stiffness below this part of the "
-                      "median are solved for exactly [-].",
-                      Patterns::Double(0., 1.));
+    prm.add_parameter(
+      "Sliver",
+      sliver,
+      "Nodes with a diagonal stiffness below this part of the "
+      "median are solved for exactly [-]; with splines, whose outer "
+      "functions are small by nature, below ten times that.",
+      Patterns::Double(0., 1.));
     prm.add_parameter("Renew iterations",
                       renew_iterations,
                       "A preconditioner made for an earlier matrix is kept "

@@ -114,16 +114,21 @@ namespace Impoint
   }
 
   template <int dim>
-  Multigrid<dim>::Multigrid(const BlockPattern &pattern, const Lattice &lattice)
+  Multigrid<dim>::Multigrid(const BlockPattern            &pattern,
+                            const Lattice                 &lattice,
+                            const std::vector<SplineLine> &lines)
   {
-    const BlockPattern *current         = &pattern;
-    const Lattice      *current_lattice = &lattice;
+    const BlockPattern            *current         = &pattern;
+    const Lattice                 *current_lattice = &lattice;
+    const std::vector<SplineLine> *current_lines   = &lines;
     while (current->n_rows() * dim > bottom_unknowns)
       {
-        levels.push_back(std::make_unique<Level>(*current, *current_lattice));
+        levels.push_back(
+          std::make_unique<Level>(*current, *current_lattice, *current_lines));
         const unsigned int n_fine = current->n_rows();
         current                   = &levels.back()->coarsening.pattern();
         current_lattice           = &levels.back()->coarsening.lattice();
+        current_lines             = &levels.back()->coarsening.lines();
         if (current->n_rows() > least_coarsening * n_fine)
           break;
       }

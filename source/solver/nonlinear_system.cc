@@ -85,20 +85,14 @@ namespace Impoint
     problem.pattern = active.pattern();
     problem.points.resize(active.n_nodes());
     problem.regularisation.assign(active.n_nodes(), 0.);
-    const auto &grid    = active.basis().grid();
-    const auto &lattice = grid.lattice();
-    problem.lattice.assign(lattice.exists ? active.n_nodes() : 0, {});
+    const auto &basis = active.basis();
+    problem.lines     = basis.lines();
+    problem.lattice.clear();
     for (unsigned int i = 0; i < active.n_nodes(); ++i)
       {
-        problem.points[i] = active.basis().point(active.grid_node(i));
-        if (lattice.exists)
-          {
-            const Tensor<1, dim> place =
-              transpose(lattice.axes) * (problem.points[i] - lattice.origin);
-            for (unsigned int d = 0; d < dim; ++d)
-              problem.lattice[i][d] =
-                static_cast<int>(std::lround(place[d] / lattice.spacing[d]));
-          }
+        problem.points[i] = basis.point(active.grid_node(i));
+        if (!problem.lines.empty())
+          problem.lattice.push_back(basis.lattice_place(active.grid_node(i)));
       }
     rest.reinit(active.unknowns());
     full_rest.reinit(active.unknowns());

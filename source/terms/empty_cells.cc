@@ -35,8 +35,8 @@ namespace Impoint
     std::vector<double>   support(basis.support_size(c));
     const Quadrature<dim> rule =
       basis.grid().simplicial() ?
-        static_cast<Quadrature<dim>>(QGaussSimplex<dim>(1)) :
-        static_cast<Quadrature<dim>>(QGauss<dim>(2));
+        static_cast<Quadrature<dim>>(QGaussSimplex<dim>(basis.degree())) :
+        static_cast<Quadrature<dim>>(QGauss<dim>(basis.degree() + 1));
     double rule_volume = 0;
     for (const double weight : rule.get_weights())
       rule_volume += weight;

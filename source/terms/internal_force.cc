@@ -178,6 +178,8 @@ namespace Impoint
           return run(std::integral_constant<int, dim + 1>());
         case (1 << dim):
           return run(std::integral_constant<int, (1 << dim)>());
+        case (dim == 2 ? 9 : 27): // quadratic, spline or not
+          return run(std::integral_constant<int, (dim == 2 ? 9 : 27)>());
         default:
           return run(std::integral_constant<int, -1>());
       }

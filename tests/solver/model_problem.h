@@ -182,6 +182,8 @@ namespace ModelProblem
   void Block<dim>::build_pattern()
   {
     std::map<Index, unsigned int> nodes;
+    if (settings.lattice)
+      problem.lines.assign(dim, SplineLine(1, settings.cells));
     const auto corner_of = [](Index index, const unsigned int corner) {
       for (unsigned int d = 0; d < dim; ++d)
         index[d] += (corner >> d) & 1;

@@ -145,18 +145,25 @@ namespace Impoint
     unsigned int find(const Point<dim> &x, Point<dim> &xi) const;
 
     /** Frame of a Cartesian grid (possibly rotated): x = origin + axes * (h i).
-     */
+     * The same on all ranks. */
     struct Lattice
     {
-      bool           exists = false;
-      Point<dim>     origin;
-      Tensor<2, dim> axes; // columns: unit vectors along the grid lines
-      Tensor<1, dim> spacing;
+      bool                 exists = false;
+      Point<dim>           origin; // the lowest corner of the box of all cells
+      Tensor<2, dim>       axes;   // columns: unit vectors along the grid lines
+      Tensor<1, dim>       spacing;
+      std::array<int, dim> n_cells = {}; // of the box of all cells
+
+      /** i of the place @p x, not rounded. */
+      Tensor<1, dim> coordinates(const Point<dim> &x) const;
     };
     const Lattice &lattice() const
     {
       return frame;
     }
+
+    /** Place of a known cell in the lattice: its lowest corner. */
+    std::array<int, dim> lattice_place(const unsigned int c) const;
 
   private:
     enum Kind : char
@@ -173,6 +180,7 @@ namespace Impoint
     void   build_cells();
     void   build_neighbors();
     void   set_affine_map(const unsigned int c);
+    bool   agree_on_axes(Tensor<2, dim> &inverse_of_all) const;
     void   detect_lattice();
     double outside_by(const Point<dim> &xi) const;
     void   order_faces(const Point<dim>            &xi,

@@ -1,11 +1,13 @@
 #ifndef impoint_grid_basis_h
 #define impoint_grid_basis_h
 
-#include <impoint/grid/background_grid.h>
+#include <impoint/grid/cell_functions.h>
+#include <impoint/grid/spline_line.h>
 
 #include <deal.II/base/array_view.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace Impoint
@@ -16,8 +18,6 @@ namespace Impoint
    * nodes a cell has or where they are.
    *
    * Nodes are numbered 0 ... n_nodes() - 1 on this rank (ghosts included).
-   * Hanging nodes never appear: their values are written in terms of the nodes
-   * they depend on, which only lengthens the list of a cell next to them.
    */
   template <int dim>
   class Basis
@@ -25,7 +25,12 @@ namespace Impoint
   public:
     /** Linear functions on the cells of @p grid, which outlives the basis. */
     explicit Basis(const BackgroundGrid<dim> &grid);
-    ~Basis();
+
+    /** The functions that @p parameters ask for. Throws InputError if there are
+     * none on this grid. */
+    Basis(const BackgroundGrid<dim> &grid,
+          const ParameterFile       &file,
+          const GridParameters      &parameters);
 
     const BackgroundGrid<dim> &grid() const
     {
@@ -34,19 +39,20 @@ namespace Impoint
 
     unsigned int n_nodes() const
     {
-      return points.size();
+      return lists().points.size();
     }
 
     /** Nodes of all functions that do not vanish in cell @p c. */
     ArrayView<const unsigned int> nodes(const unsigned int c) const
     {
-      return ArrayView<const unsigned int>(cell_nodes.data() + first_node[c],
-                                           first_node[c + 1] - first_node[c]);
+      return ArrayView<const unsigned int>(lists().cell_nodes.data() +
+                                             lists().first_node[c],
+                                           n_nodes_of(c));
     }
 
     unsigned int n_nodes_of(const unsigned int c) const
     {
-      return first_node[c + 1] - first_node[c];
+      return lists().n_nodes_of(c);
     }
 
     /** Number of doubles of a support in cell @p c: a value and dim
@@ -61,61 +67,93 @@ namespace Impoint
      * N_a, then gradients dN_a/dx_d at [n + a * dim + d].
      */
     void
-    evaluate(const unsigned int c, const Point<dim> &xi, double *support) const;
-
-    /** The same through FEValues: any cell, an oracle in tests. */
-    void evaluate_by_fe_values(const unsigned int c,
-                               const Point<dim>  &xi,
-                               double            *support) const;
+    evaluate(const unsigned int c, const Point<dim> &xi, double *support) const
+    {
+      functions->evaluate(c, xi, support);
+    }
 
     types::global_dof_index global_index(const unsigned int node) const
     {
-      return global_indices[node];
+      return lists().global_indices[node];
     }
 
     /** The rank that numbers the node. */
     unsigned int owner(const unsigned int node) const
     {
-      return owners[node];
+      return lists().owners[node];
     }
 
+    /** Where the node is: its coefficient of a linear field is the field's
+     * value there. Splines have other values at these places than coefficients.
+     */
     const Point<dim> &point(const unsigned int node) const
     {
-      return points[node];
+      return lists().points[node];
     }
 
     /** Node of this rank with a global index, BackgroundGrid::nowhere if it
      * has none. */
-    unsigned int node_of(const types::global_dof_index index) const;
+    unsigned int node_of(const types::global_dof_index index) const
+    {
+      return lists().node_of(index);
+    }
 
-    /** Nodes on the part of the grid's boundary with @p boundary_id, with the
-     * area-weighted sum of the outward face normals at each. */
+    /** Nodes that hold the part of the grid's boundary with @p boundary_id:
+     * their functions alone do not vanish there. With the area-weighted sum of
+     * the outward face normals at each. Collective. */
     std::vector<std::pair<unsigned int, Tensor<1, dim>>>
     boundary_nodes(const types::boundary_id boundary_id) const;
 
-    std::string name() const
+    /** Whether there are such nodes for all of that part. Collective. */
+    bool can_hold(const types::boundary_id boundary_id) const;
+
+    /** Lines of functions, one a direction, whose products the nodes are:
+     * geometric multigrid coarsens them. Empty where there are none. */
+    const std::vector<SplineLine> &lines() const
     {
-      return "linear";
+      return lattice_lines;
+    }
+
+    /** Place of a node on those lines. */
+    const std::array<int, dim> &lattice_place(const unsigned int node) const
+    {
+      return lists().lattice[node];
+    }
+
+    /** Whether functions reach over more than one cell, so that what a cell's
+     * points do not see others may. */
+    bool is_spline() const
+    {
+      return kind.find("spline") != std::string::npos;
+    }
+
+    /** Highest power of one coordinate. */
+    unsigned int degree() const
+    {
+      return kind == "linear" ? 1 : (kind == "cubic spline" ? 3 : 2);
+    }
+
+    /** As in the parameter file. */
+    const std::string &name() const
+    {
+      return kind;
     }
 
   private:
-    struct Elements; // DoFHandler and what goes with it
+    using NodalNormals = std::vector<std::array<double, dim + 1>>;
 
-    void number_nodes();
-    void list_cell_nodes();
+    const NodeLists<dim> &lists() const
+    {
+      return functions->lists();
+    }
 
-    const BackgroundGrid<dim>           &background;
-    std::unique_ptr<Elements>            elements;
-    std::vector<types::global_dof_index> global_indices; // increasing
-    std::vector<unsigned int>            owners;
-    std::vector<Point<dim>>              points;
-    std::vector<std::size_t>             first_node; // per cell
-    std::vector<unsigned int>            cell_nodes;
+    void make_functions();
+    void sum_over_ranks(NodalNormals &normals) const;
 
-    // Cells with hanging nodes: position in hanging, or nowhere. Row-major
-    // vertices x nodes: the weight of each node in each vertex' function.
-    std::vector<unsigned int>        hanging_index;
-    std::vector<std::vector<double>> hanging;
+    const BackgroundGrid<dim>          &background;
+    std::string                         kind;
+    std::unique_ptr<CellFunctions<dim>> functions;
+    std::vector<SplineLine>             lattice_lines;
   };
 } // namespace Impoint
 

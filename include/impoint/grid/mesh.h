@@ -52,6 +52,9 @@ namespace Impoint
     void declare(ParameterFile &file);
     void check(const ParameterFile &file, const unsigned int dim) const;
 
+    // linear|quadratic|quadratic spline|cubic spline
+    std::string basis = "linear";
+
     // expression of x: cells whose centre has a value > 0 are refined further
     std::string  refine_where;
     unsigned int refine_times = 1;

@@ -27,7 +27,8 @@ namespace Impoint
   class BandPreconditioner : public Preconditioner
   {
   public:
-    /** A node is a sliver below @p sliver times the median diagonal. */
+    /** A node is a sliver below @p sliver times the median diagonal; with
+     * splines below ten times that. */
     BandPreconditioner(const double sliver);
 
     /** Tells that the pattern changed: the next renew() partitions anew. */
@@ -47,7 +48,7 @@ namespace Impoint
     std::string description() const;
 
   private:
-    void find_slivers(const BlockMatrix<dim> &matrix);
+    void find_slivers(const BlockMatrix<dim> &matrix, const bool splines);
     void partition(const LinearProblem<dim> &problem);
     void solve_outside(std::vector<double> &residual) const;
 

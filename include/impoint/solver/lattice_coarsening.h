@@ -1,6 +1,7 @@
 #ifndef impoint_solver_lattice_coarsening_h
 #define impoint_solver_lattice_coarsening_h
 
+#include <impoint/grid/spline_line.h>
 #include <impoint/solver/block_matrix.h>
 
 #include <array>
@@ -9,10 +10,11 @@
 namespace Impoint
 {
   /**
-   * One step of coarsening on a lattice: nodes with even indices stay, the
-   * others interpolate linearly between their even neighbours (all of which
-   * exist on the coarse lattice). The places of all products in P^T A P are
-   * found once, so that values are only streamed.
+   * One step of coarsening on a lattice to cells of twice the size: each
+   * function of the coarse lattice is a sum of fine ones (linear: 1/2 1 1/2;
+   * splines: knot insertion, 1/4 3/4 3/4 1/4 and 1/8 4/8 6/8 4/8 1/8 but at the
+   * ends). All coarse functions that a fine one is in exist. The places of all
+   * products in P^T A P are found once, so that values are only streamed.
    */
   template <int dim>
   class LatticeCoarsening
@@ -20,7 +22,10 @@ namespace Impoint
   public:
     using Lattice = std::vector<std::array<int, dim>>;
 
-    LatticeCoarsening(const BlockPattern &pattern, const Lattice &lattice);
+    /** @p lines: of the lattice, one a direction. */
+    LatticeCoarsening(const BlockPattern            &pattern,
+                      const Lattice                 &lattice,
+                      const std::vector<SplineLine> &lines);
 
     /** coarse = P^T fine P. */
     void galerkin(const BlockMatrix<dim> &fine, BlockMatrix<dim> &coarse) const;
@@ -33,8 +38,9 @@ namespace Impoint
     void prolongate(const std::vector<double> &coarse,
                     std::vector<double>       &fine) const;
 
-    const BlockPattern &pattern() const; // of the coarse matrix
-    const Lattice      &lattice() const; // of the coarse nodes
+    const BlockPattern            &pattern() const; // of the coarse matrix
+    const Lattice                 &lattice() const; // of the coarse nodes
+    const std::vector<SplineLine> &lines() const;   // of the coarse lattice
 
   private:
     /** The transpose of the lists of parents. */
@@ -45,14 +51,16 @@ namespace Impoint
       std::vector<std::size_t> links; // where the coarse node stands in parents
     };
 
-    void     find_parents(const Lattice &lattice);
+    void     find_parents(const Lattice                 &lattice,
+                          const std::vector<SplineLine> &lines);
     Children find_children() const;
     void     find_half_products(const BlockPattern &fine);
     void     build_pattern(const Children &children);
     void     find_targets(const Children &children);
 
-    BlockPattern coarse_pattern;
-    Lattice      coarse_lattice;
+    BlockPattern            coarse_pattern;
+    Lattice                 coarse_lattice;
+    std::vector<SplineLine> coarse_lines;
 
     // P by fine nodes
     std::vector<std::size_t>  parent_start;

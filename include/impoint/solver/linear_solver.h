@@ -2,6 +2,7 @@
 #define impoint_solver_linear_solver_h
 
 #include <impoint/base/counters.h>
+#include <impoint/grid/spline_line.h>
 #include <impoint/solver/block_matrix.h>
 
 #include <deal.II/base/point.h>
@@ -53,7 +54,10 @@ namespace Impoint
 
     std::vector<Point<dim>> points; // of the nodes
 
-    /** Place in the lattice of a Cartesian grid; empty on other grids. */
+    /** Lines of functions, one a direction, whose products the nodes are, and
+     * the place of each node on them: what geometric multigrid needs. Both
+     * empty without a lattice. */
+    std::vector<SplineLine>           lines;
     std::vector<std::array<int, dim>> lattice;
   };
 

@@ -54,8 +54,10 @@ namespace Impoint
   public:
     using Lattice = typename LatticeCoarsening<dim>::Lattice;
 
-    /** The nodes of @p pattern have the places @p lattice. */
-    Multigrid(const BlockPattern &pattern, const Lattice &lattice);
+    /** The nodes of @p pattern have the places @p lattice on @p lines. */
+    Multigrid(const BlockPattern            &pattern,
+              const Lattice                 &lattice,
+              const std::vector<SplineLine> &lines);
 
     void new_matrix(const BlockMatrix<dim> &matrix) override;
 
@@ -65,8 +67,10 @@ namespace Impoint
   private:
     struct Level
     {
-      Level(const BlockPattern &pattern, const Lattice &lattice)
-        : coarsening(pattern, lattice)
+      Level(const BlockPattern            &pattern,
+            const Lattice                 &lattice,
+            const std::vector<SplineLine> &lines)
+        : coarsening(pattern, lattice, lines)
       {}
 
       GaussSeidel<dim>       smoother;
