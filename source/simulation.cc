@@ -1,6 +1,7 @@
 #include <impoint/base/parameter_file.h>
 #include <impoint/base/scoped_seconds.h>
 #include <impoint/boundary_forces.h>
+#include <impoint/enforcement/proximity.h>
 #include <impoint/history_row.h>
 #include <impoint/output/machine.h>
 #include <impoint/output/summary.h>
@@ -239,15 +240,14 @@ namespace Impoint
   void Simulation<dim>::find_new_places()
   {
     ScopedSeconds timer(seconds.locate);
-    points->find(new_places(*points, active, u));
+    const auto    places = new_places(*points, active, u);
+    points->find(places);
 
     std::vector<double> cell_u;
     for (unsigned int m = 0; m < methods.size(); ++m)
       {
         auto &particles = methods[m]->particles();
         boundary_places[m].resize(particles.n());
-        if (!methods[m]->moves())
-          continue;
         for (unsigned int r = 0; r < particles.ranges().size(); ++r)
           {
             const unsigned int k = active.position(particles.ranges()[r].cell);
@@ -258,8 +258,12 @@ namespace Impoint
                                    is_active ? cell_u.data() : nullptr,
                                    boundary_places[m]);
           }
-        particles.find(boundary_places[m]);
+        if (methods[m]->moves())
+          particles.find(boundary_places[m]);
       }
+    if (scene.time.is_dynamic())
+      Enforcement::check_crossing(
+        methods, active, *points, places, boundary_places);
   }
 
 

@@ -71,6 +71,15 @@ namespace Impoint
       "averaged at the nodes (P Eq. 54); automatic: nodal where "
       "the particles' normals differ, else particle.",
       Patterns::Selection("automatic|particle|nodal"));
+    prm.add_parameter("Releasing",
+                      releasing,
+                      "The boundary presses but does not pull: contact with a "
+                      "wall (P Eq. 55). A fixed one sticks while it presses.",
+                      Patterns::Bool());
+    prm.add_parameter("Friction coefficient",
+                      friction,
+                      "Coulomb friction of a slip boundary [-].",
+                      Patterns::Double(0.));
     declare_motion(prm);
     prm.leave_subsection();
     prm.leave_subsection();
@@ -201,6 +210,11 @@ namespace Impoint
            kind);
     // What only another enforcement looks at stays: the enforcement of a scene
     // is changed in one line.
+    refuse(conforming || traction, {"Releasing"}, kind);
+    refuse(constraint != "slip" || conforming, {"Friction coefficient"}, kind);
+    refuse(enforcement == "implicit boundary",
+           {"Releasing", "Friction coefficient"},
+           "an implicit boundary always holds");
     refuse(constraint != "slip" || conforming, {"Normals"}, kind);
     refuse(conforming, {"Moves", "Rotation angle"}, kind);
     refuse(!turns,

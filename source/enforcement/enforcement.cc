@@ -66,6 +66,12 @@ namespace Impoint
 
 
     template <int dim>
+    void Method<dim>::freeze()
+    {}
+
+
+
+    template <int dim>
     Tensor<1, dim> Method<dim>::displacement(const unsigned int b,
                                              const unsigned int n,
                                              const double      *u) const

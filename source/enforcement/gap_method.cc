@@ -1,7 +1,6 @@
 #include <impoint/enforcement/gap_method.h>
+#include <impoint/enforcement/proximity.h>
 #include <impoint/enforcement/superfluous_constraints.h>
-
-#include <deal.II/lac/la_parallel_vector.h>
 
 #include <algorithm>
 
@@ -24,7 +23,7 @@ namespace Impoint
                               const bool                              projected)
       : Method<dim>(parameters, std::move(motion), std::move(particles))
       , projected(projected)
-      , slip(parameters.constraint == "slip")
+      , normal_only(parameters.constraint == "slip" && parameters.friction == 0)
     {}
 
 
@@ -79,6 +78,14 @@ namespace Impoint
 
 
     template <int dim>
+    bool GapMethod<dim>::is_linear() const
+    {
+      return !this->condition.releasing && this->condition.friction == 0;
+    }
+
+
+
+    template <int dim>
     bool GapMethod<dim>::augmented() const
     {
       for (unsigned int r = 0; r < this->boundary->ranges().size(); ++r)
@@ -95,84 +102,20 @@ namespace Impoint
       Method<dim>::begin_step(step);
       if (!this->active_now)
         return;
+      frozen = false;
       before.clear();
+      touches.assign(this->boundary->n(), Touch::sticks);
       multipliers.resize(this->boundary->n());
       for (unsigned int b = 0; b < multipliers.size(); ++b)
         multipliers[b] =
           this->boundary->vector(b, this->boundary->slots().multiplier);
-      if (slip)
-        average_normals();
+      if (normal_only)
+        normals.reinit(this->condition.normals, *this, *step.active);
+      if (this->condition.releasing)
+        distance = distances(*this->boundary, *step.active, *step.points);
       left_out.clear();
       if (removes_superfluous())
         left_out = superfluous_constraints(*this->boundary, *step.active);
-    }
-
-
-
-    /** Whether all normals of all ranks are alike: a flat wall. */
-    template <int dim>
-    bool GapMethod<dim>::one_normal() const
-    {
-      Tensor<1, dim> lowest, highest;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          lowest[d]  = 2;
-          highest[d] = -2;
-        }
-      for (unsigned int b = 0; b < this->boundary->n(); ++b)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double n =
-              this->boundary->vector(b, this->boundary->slots().normal)[d];
-            lowest[d]  = std::min(lowest[d], n);
-            highest[d] = std::max(highest[d], n);
-          }
-      const MPI_Comm comm = this->current.active->basis().grid().communicator();
-      double         largest_difference = 0;
-      for (unsigned int d = 0; d < dim; ++d)
-        largest_difference = std::max(largest_difference,
-                                      Utilities::MPI::max(highest[d], comm) -
-                                        Utilities::MPI::min(lowest[d], comm));
-      return largest_difference < 1e-10;
-    }
-
-
-
-    /** Normals at the nodes, P Eq. 54, where they are needed. */
-    template <int dim>
-    void GapMethod<dim>::average_normals()
-    {
-      nodal_normals = this->condition.normals == "nodal" ||
-                      (this->condition.normals == "automatic" && !one_normal());
-      if (!nodal_normals)
-        return;
-
-      const auto &active = *this->current.active;
-      const auto &slots  = this->boundary->slots();
-      LinearAlgebra::distributed::Vector<double> sums(active.unknowns());
-      for_active_ranges(*this,
-                        active,
-                        [&](const unsigned int r, const unsigned int k) {
-                          const auto &range = this->boundary->ranges()[r];
-                          const auto  nodes = active.nodes(k);
-                          for (unsigned int b = range.begin; b < range.end; ++b)
-                            for (unsigned int a = 0; a < nodes.size(); ++a)
-                              for (unsigned int d = 0; d < dim; ++d)
-                                sums.local_element(nodes[a] * dim + d) +=
-                                  this->boundary->vector(b, slots.normal)[d] *
-                                  this->boundary->area(b) *
-                                  this->boundary->support(b)[a];
-                        });
-      sums.compress(VectorOperation::add);
-      sums.update_ghost_values();
-      node_normals.assign(active.n_nodes(), Tensor<1, dim>());
-      for (unsigned int i = 0; i < active.n_nodes(); ++i)
-        {
-          for (unsigned int d = 0; d < dim; ++d)
-            node_normals[i][d] = sums.local_element(i * dim + d);
-          if (node_normals[i].norm() > 0)
-            node_normals[i] /= node_normals[i].norm();
-        }
     }
 
 
@@ -186,14 +129,14 @@ namespace Impoint
 
 
     template <int dim>
-    void GapMethod<dim>::shape_values(const unsigned int b,
-                                      const bool         raise_small,
+    void GapMethod<dim>::shape_values(const unsigned int r,
+                                      const unsigned int b,
                                       const unsigned int n,
                                       double            *N) const
     {
       const double *support = this->boundary->support(b);
       std::copy(support, support + n, N);
-      if (!raise_small)
+      if (!raises_small_values(r))
         return;
       double sum = 0;
       for (unsigned int a = 0; a < n; ++a)
@@ -204,60 +147,125 @@ namespace Impoint
 
 
 
+    /** Whether the particle pressed on the material at the end of the last
+     * step: then it keeps its gap. */
     template <int dim>
-    Tensor<1, dim>
-    GapMethod<dim>::direction(const unsigned int b,
-                              const unsigned int compact_node) const
+    bool GapMethod<dim>::is_closed(const unsigned int b) const
     {
-      return nodal_normals ?
-               node_normals[compact_node] :
-               this->boundary->vector(b, this->boundary->slots().normal);
+      const auto          &slots = this->boundary->slots();
+      const Tensor<1, dim> held  = this->boundary->vector(b, slots.multiplier);
+      const Tensor<1, dim> gap   = this->boundary->vector(b, slots.gap);
+      if (normal_only)
+        return held[0] > 0 || gap[0] > 0;
+      const Tensor<1, dim> normal = this->boundary->vector(b, slots.normal);
+      return held * normal > 0 || gap * normal > 0;
     }
 
 
 
     template <int dim>
-    void GapMethod<dim>::make_patch(const unsigned int r, Patch &patch) const
+    bool GapMethod<dim>::is_near(const unsigned int b) const
     {
-      const auto &active = *this->current.active;
-      const auto &slots  = this->boundary->slots();
-      const auto  nodes =
-        active.nodes(active.position(this->boundary->ranges()[r].cell));
-      const unsigned int n           = nodes.size();
-      const bool         raise_small = raises_small_values(r);
-      double             N[largest_support];
-      Assert(n <= largest_support, ExcInternalError());
+      return !this->condition.releasing || distance[b] <= 0 || is_closed(b);
+    }
 
-      patch.area       = 0;
-      patch.gap        = Tensor<1, dim>();
-      patch.multiplier = Tensor<1, dim>();
-      for (unsigned int a = 0; a < n; ++a)
+
+
+    template <int dim>
+    bool GapMethod<dim>::is_in(const Patch &patch, const unsigned int b) const
+    {
+      return !patch.near_only || is_near(b);
+    }
+
+
+
+    /** Gap with the material where it is and the wall where it will be. */
+    template <int dim>
+    Tensor<1, dim> GapMethod<dim>::start_gap(const unsigned int b) const
+    {
+      const auto          &slots  = this->boundary->slots();
+      const Tensor<1, dim> normal = this->boundary->vector(b, slots.normal);
+      const Tensor<1, dim> wall   = this->boundary->vector(b, slots.increment);
+      Tensor<1, dim>       gap    = this->boundary->vector(b, slots.gap);
+      const double         away   = is_near(b) ? 0. : distance[b];
+      if (normal_only)
+        gap[0] -= normal * wall + away;
+      else
+        gap -= wall + away * normal;
+      return gap;
+    }
+
+
+
+    template <int dim>
+    void GapMethod<dim>::add_particle(const unsigned int r,
+                                      const unsigned int b,
+                                      const double       weight,
+                                      Patch             &patch) const
+    {
+      const auto nodes = this->current.active->nodes(
+        this->current.active->position(this->boundary->ranges()[r].cell));
+      double N[Patch::largest_support];
+      shape_values(r, b, nodes.size(), N);
+      patch.start_gap += weight * start_gap(b);
+      patch.multiplier += weight * multipliers[b];
+      patch.normal +=
+        weight * this->boundary->vector(b, this->boundary->slots().normal);
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        if (normal_only)
+          patch.rows[a] +=
+            weight * N[a] * normals.direction(*this->boundary, b, nodes[a]);
+        else
+          patch.values[a] += weight * N[a];
+    }
+
+
+
+    template <int dim>
+    typename GapMethod<dim>::Patch
+    GapMethod<dim>::make_patch(const unsigned int r,
+                               const unsigned int begin,
+                               const unsigned int end) const
+    {
+      Patch patch(normal_only,
+                  this->current.active->basis().n_nodes_of(
+                    this->boundary->ranges()[r].cell));
+      patch.begin = begin;
+      patch.end   = end;
+      for (unsigned int b = begin; b < end; ++b)
+        patch.near_only |= is_near(b);
+      for (unsigned int b = begin; b < end; ++b)
+        if (is_in(patch, b))
+          patch.area += this->boundary->area(b);
+      for (unsigned int b = begin; b < end; ++b)
+        if (is_in(patch, b))
+          add_particle(r, b, this->boundary->area(b) / patch.area, patch);
+      if (normal_only)
         {
-          patch.values[a] = 0;
-          patch.rows[a]   = Tensor<1, dim>();
+          patch.normal    = Tensor<1, dim>();
+          patch.normal[0] = 1.;
         }
-      for (unsigned int b = patch.begin; b < patch.end; ++b)
-        patch.area += this->boundary->area(b);
-      patch.law = law(r, patch.area);
-      for (unsigned int b = patch.begin; b < patch.end; ++b)
-        {
-          const double weight = this->boundary->area(b) / patch.area;
-          shape_values(b, raise_small, n, N);
-          const Tensor<1, dim> wall =
-            this->boundary->vector(b, slots.increment);
-          patch.gap += weight * this->boundary->vector(b, slots.gap);
-          patch.multiplier += weight * multipliers[b];
-          if (slip)
-            patch.gap[0] -=
-              weight * (this->boundary->vector(b, slots.normal) * wall);
-          else
-            patch.gap -= weight * wall;
-          for (unsigned int a = 0; a < n; ++a)
-            if (slip)
-              patch.rows[a] += weight * N[a] * direction(b, nodes[a]);
-            else
-              patch.values[a] += weight * N[a];
-        }
+      else
+        patch.normal /= patch.normal.norm();
+
+      patch.law           = law(r, patch.area);
+      patch.law.releasing = this->condition.releasing;
+      if (this->condition.constraint == "slip" && !normal_only)
+        patch.law.friction = this->condition.friction;
+      return patch;
+    }
+
+
+
+    template <int dim>
+    typename GapMethod<dim>::Patch
+    GapMethod<dim>::alone(const unsigned int r, const unsigned int b) const
+    {
+      Patch patch(normal_only,
+                  this->current.active->basis().n_nodes_of(
+                    this->boundary->ranges()[r].cell));
+      add_particle(r, b, 1., patch);
+      return patch;
     }
 
 
@@ -270,83 +278,23 @@ namespace Impoint
       if (!takes_part(r))
         return;
       const auto &range = this->boundary->ranges()[r];
-      Patch       patch;
-      patch.begin = range.begin;
-      while (patch.begin < range.end)
-        {
-          patch.end = projected ? range.end : patch.begin + 1;
-          make_patch(r, patch);
-          function(patch);
-          patch.begin = patch.end;
-        }
+      if (projected)
+        function(make_patch(r, range.begin, range.end));
+      else
+        for (unsigned int b = range.begin; b < range.end; ++b)
+          function(make_patch(r, b, b + 1));
     }
 
 
 
     template <int dim>
-    Tensor<1, dim> GapMethod<dim>::gap(const Patch       &patch,
-                                       const unsigned int n,
-                                       const double      *u) const
+    typename GapMethod<dim>::Patch::Answer
+    GapMethod<dim>::answer(const Patch &patch, const double *u) const
     {
-      Tensor<1, dim> result = patch.gap;
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int d = 0; d < dim; ++d)
-          if (slip)
-            result[0] += patch.rows[a][d] * u[a * dim + d];
-          else
-            result[d] += patch.values[a] * u[a * dim + d];
+      Touch     &touch  = touches[patch.begin];
+      const auto result = patch.answer(u, frozen ? &touch : nullptr);
+      touch             = result.touch;
       return result;
-    }
-
-
-
-    template <int dim>
-    Tensor<1, dim> GapMethod<dim>::traction(const Patch       &patch,
-                                            const unsigned int n,
-                                            const double      *u) const
-    {
-      const Law           &law   = patch.law;
-      const Tensor<1, dim> trial = law.gamma * gap(patch, n, u);
-      return law.augmented ?
-               (patch.multiplier + trial) / (1. + law.gamma * law.compliance) :
-               trial;
-    }
-
-
-
-    template <int dim>
-    void GapMethod<dim>::add_force(const Patch          &patch,
-                                   const Tensor<1, dim> &t,
-                                   CellSystem           &system) const
-    {
-      for (unsigned int a = 0; a < system.n; ++a)
-        for (unsigned int d = 0; d < dim; ++d)
-          system.residual[a * dim + d] +=
-            patch.area *
-            (slip ? patch.rows[a][d] * t[0] : patch.values[a] * t[d]);
-    }
-
-
-
-    template <int dim>
-    void GapMethod<dim>::add_stiffness(const Patch &patch,
-                                       const double stiffness,
-                                       CellSystem  &system) const
-    {
-      const unsigned int n     = system.n;
-      const double       scale = stiffness * patch.area;
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int b = 0; b < n; ++b)
-          {
-            double *block = system.matrix + (a * n + b) * dim * dim;
-            for (unsigned int i = 0; i < dim; ++i)
-              if (!slip)
-                block[i * dim + i] += scale * patch.values[a] * patch.values[b];
-              else
-                for (unsigned int j = 0; j < dim; ++j)
-                  block[i * dim + j] +=
-                    scale * patch.rows[a][i] * patch.rows[b][j];
-          }
     }
 
 
@@ -357,12 +305,15 @@ namespace Impoint
                              CellSystem        &system) const
     {
       for_patches(r, [&](const Patch &patch) {
-        add_force(patch, traction(patch, system.n, system.u), system);
-        double stiffness = patch.law.stiffness();
-        if (strength == Strength::moderate)
-          stiffness = std::min(stiffness, moderate_factor * unit(r));
-        if (system.matrix != nullptr)
-          add_stiffness(patch, stiffness, system);
+        const auto answer = this->answer(patch, system.u);
+        patch.add_force(answer.traction, system);
+        if (system.matrix == nullptr)
+          return;
+        const double part =
+          strength == Strength::exact ?
+            1. :
+            std::min(1., moderate_factor * unit(r) / patch.law.stiffness());
+        patch.add_stiffness(part * answer.stiffness, system);
       });
     }
 
@@ -372,17 +323,14 @@ namespace Impoint
     void GapMethod<dim>::update_multipliers(const unsigned int r,
                                             CellSystem        &system)
     {
-      for_patches(r, [&](const Patch &patch) {
+      for_patches(r, [&](Patch patch) {
         if (!patch.law.augmented)
           return;
-        const Tensor<1, dim> t = traction(patch, system.n, system.u);
+        const Tensor<1, dim> t = answer(patch, system.u).traction;
         for (unsigned int b = patch.begin; b < patch.end; ++b)
           multipliers[b] = t;
-        // at the same gap t changes by the multiplier's change over 1 + gamma c
-        add_force(patch,
-                  (t - patch.multiplier) /
-                    (1. + patch.law.gamma * patch.law.compliance),
-                  system);
+        patch.multiplier = t;
+        patch.add_force(answer(patch, system.u).traction - t, system);
       });
     }
 
@@ -410,81 +358,66 @@ namespace Impoint
 
 
     template <int dim>
+    void GapMethod<dim>::freeze()
+    {
+      frozen = true;
+    }
+
+
+
+    template <int dim>
     void GapMethod<dim>::end_step(const unsigned int r, const double *u)
     {
       const auto &slots = this->boundary->slots();
       const auto &range = this->boundary->ranges()[r];
       for (unsigned int b = range.begin; b < range.end; ++b)
-        {
-          this->boundary->set_vector(b, slots.force, Tensor<1, dim>());
-          this->boundary->set_vector(b, slots.multiplier, Tensor<1, dim>());
-          if (u == nullptr) // what comes here next is met without a gap
-            this->boundary->set_vector(b, slots.gap, Tensor<1, dim>());
-        }
-      if (u == nullptr)
-        return;
-      const auto nodes =
-        this->current.active->nodes(this->current.active->position(range.cell));
-      for_patches(r, [&](const Patch &patch) {
-        const Tensor<1, dim> t = traction(patch, nodes.size(), u);
-        for (unsigned int b = patch.begin; b < patch.end; ++b)
-          store_force(r, b, patch.law.augmented, t);
-      });
+        for (const unsigned int slot : {slots.force, slots.multiplier})
+          this->boundary->set_vector(b, slot, Tensor<1, dim>());
+      if (u != nullptr && takes_part(r))
+        return for_patches(r, [&](const Patch &patch) { store(r, patch, u); });
       for (unsigned int b = range.begin; b < range.end; ++b)
-        store_gap(r, b, u);
-    }
-
-
-
-    /** What the wall does to the material is minus what the residual holds. */
-    template <int dim>
-    void GapMethod<dim>::store_force(const unsigned int    r,
-                                     const unsigned int    b,
-                                     const bool            is_multiplier,
-                                     const Tensor<1, dim> &t)
-    {
-      const auto &slots = this->boundary->slots();
-      const auto  nodes = this->current.active->nodes(
-        this->current.active->position(this->boundary->ranges()[r].cell));
-      Tensor<1, dim> force = -this->boundary->area(b) * t;
-      if (slip)
         {
-          double         N[largest_support];
-          Tensor<1, dim> held;
-          shape_values(b, raises_small_values(r), nodes.size(), N);
-          for (unsigned int a = 0; a < nodes.size(); ++a)
-            held += N[a] * direction(b, nodes[a]);
-          force = -this->boundary->area(b) * t[0] * held;
+          Tensor<1, dim> gap; // none to what comes here next
+          if (u != nullptr)
+            gap = alone(r, b).gap(u);
+          this->boundary->set_vector(b, slots.gap, gap);
         }
-      this->boundary->set_vector(b, slots.force, force);
-      if (is_multiplier)
-        this->boundary->set_vector(b, slots.multiplier, t);
     }
 
 
 
     template <int dim>
-    void GapMethod<dim>::store_gap(const unsigned int r,
-                                   const unsigned int b,
-                                   const double      *u)
+    void GapMethod<dim>::store(const unsigned int r,
+                               const Patch       &patch,
+                               const double      *u)
     {
-      const auto &slots = this->boundary->slots();
-      const auto  nodes = this->current.active->nodes(
-        this->current.active->position(this->boundary->ranges()[r].cell));
-      Tensor<1, dim>       gap  = this->boundary->vector(b, slots.gap);
-      const Tensor<1, dim> wall = this->boundary->vector(b, slots.increment);
-      if (slip)
+      const auto &slots  = this->boundary->slots();
+      const auto  answer = this->answer(patch, u);
+      for (unsigned int b = patch.begin; b < patch.end; ++b)
         {
-          double N[largest_support];
-          shape_values(b, raises_small_values(r), nodes.size(), N);
-          gap[0] -= this->boundary->vector(b, slots.normal) * wall;
-          for (unsigned int a = 0; a < nodes.size(); ++a)
-            for (unsigned int d = 0; d < dim; ++d)
-              gap[0] += N[a] * direction(b, nodes[a])[d] * u[a * dim + d];
+          const Patch    alone = this->alone(r, b);
+          Tensor<1, dim> gap   = alone.gap(u);
+          if (answer.touch == Touch::open)
+            gap = Tensor<1, dim>();
+          else if (answer.touch == Touch::slides)
+            {
+              // along the wall, what the spring of a penalty goes on holding
+              const Tensor<1, dim> along =
+                answer.traction -
+                (answer.traction * patch.normal) * patch.normal;
+              gap = (gap * patch.normal) * patch.normal;
+              if (!patch.law.augmented)
+                gap += along / patch.law.gamma;
+            }
+          // what the wall does to the material is minus what the residual holds
+          const Tensor<1, dim> force =
+            this->boundary->area(b) * alone.total(answer.traction);
+          if (is_in(patch, b))
+            this->boundary->set_vector(b, slots.force, -force);
+          this->boundary->set_vector(b, slots.gap, gap);
+          if (patch.law.augmented)
+            this->boundary->set_vector(b, slots.multiplier, answer.traction);
         }
-      else
-        gap += this->displacement(b, nodes.size(), u) - wall;
-      this->boundary->set_vector(b, slots.gap, gap);
     }
 
     template class GapMethod<2>;

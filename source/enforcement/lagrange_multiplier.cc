@@ -30,10 +30,10 @@ namespace Impoint
 
 
     template <int dim>
-    typename GapMethod<dim>::Law
-    LagrangeMultiplier<dim>::law(const unsigned int r, const double area) const
+    TractionLaw LagrangeMultiplier<dim>::law(const unsigned int r,
+                                             const double       area) const
     {
-      Law law;
+      TractionLaw law;
       law.augmented = true;
       law.gamma     = user_chooses_factor ?
                         this->factor(r) :

@@ -28,11 +28,10 @@ namespace Impoint
 
 
     template <int dim>
-    typename GapMethod<dim>::Law Penalty<dim>::law(const unsigned int r,
-                                                   const double area) const
+    TractionLaw Penalty<dim>::law(const unsigned int r, const double area) const
     {
       const double beta = this->factor(r);
-      Law          law;
+      TractionLaw  law;
       law.augmented = beta > largest_plain_factor * this->unit(r);
       law.gamma =
         law.augmented ?

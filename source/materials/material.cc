@@ -10,11 +10,11 @@ namespace Impoint
     VoigtMatrix<dim> Material<dim>::elastic_tangent() const
     {
       std::vector<double> old_history(n_history()), history(n_history());
-      initialise(old_history.data());
+      Response<dim>       response;
+      initialise(response, old_history.data());
       Deformation<dim> rest;
       for (unsigned int d = 0; d < dim; ++d)
         rest.F[d][d] = 1.;
-      Response<dim> response;
       respond(rest, old_history.data(), history.data(), true, response);
       return response.tangent;
     }

@@ -24,6 +24,7 @@ namespace Impoint
     const double                                    thickness)
     : PointCloud<dim>(basis, Slots().layout)
     , boundary_name(name)
+    , body_thickness(thickness)
   {
     std::vector<typename PointCloud<dim>::NewParticle> particles;
     for (const auto &seed : seeds)

@@ -53,17 +53,11 @@ namespace Impoint
          ++iteration)
       {
         ++counters.newton_iterations;
+        if (2 * iteration >= parameters.max_iterations)
+          system.freeze(); // ends a cycle of what touches
         system.correct(iteration == 0, u, delta);
         if (system.is_linear())
-          {
-            u += delta;
-            u.update_ghost_values();
-            // reactions of held nodes are what the residual leaves there
-            history.push_back(system.has_held_nodes() ?
-                                system.evaluate(u, false) :
-                                system.linear_residual(delta));
-            return;
-          }
+          return finish_linear_step(delta, u);
         history.push_back(advance(delta, !expects_convergence(), u));
         const double size      = u.linfty_norm();
         const double increment = size > 0 ? delta.linfty_norm() / size : 0.;
@@ -79,6 +73,27 @@ namespace Impoint
     text << "Newton's iteration left a relative residual of " << history.back()
          << " after " << parameters.max_iterations << " iterations";
     throw StepFailed(text.str());
+  }
+
+
+
+  /** One correction solves a linear step. A second one with the same matrix
+   * brings back the digits that a stiff boundary took from the material's. */
+  template <int dim>
+  void Newton<dim>::finish_linear_step(Vector &delta, Vector &u)
+  {
+    u += delta;
+    u.update_ghost_values();
+    if (system.is_stiff())
+      {
+        history.push_back(system.evaluate(u, false));
+        system.correct(false, u, delta);
+        u += delta;
+        u.update_ghost_values();
+      }
+    // reactions of held nodes are what the residual leaves there
+    history.push_back(system.has_held_nodes() ? system.evaluate(u, false) :
+                                                system.linear_residual(delta));
   }
 
 

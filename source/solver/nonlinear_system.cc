@@ -126,7 +126,10 @@ namespace Impoint
   template <int dim>
   bool NonlinearSystem<dim>::is_linear() const
   {
-    return points.small_strain() && points.constant_tangent();
+    bool linear = points.small_strain() && points.constant_tangent();
+    for (const auto &method : methods)
+      linear &= !method->is_active() || method->is_linear();
+    return linear;
   }
 
 
@@ -139,6 +142,18 @@ namespace Impoint
       augmented |= method->is_active() && method->augmented();
     return Utilities::MPI::max(int(augmented),
                                active.basis().grid().communicator());
+  }
+
+
+
+  template <int dim>
+  bool NonlinearSystem<dim>::is_stiff() const
+  {
+    constexpr double harmless = 3e5; // in units of E h^(dim-2)
+    return Utilities::MPI::max(largest_entry(problem.matrix),
+                               active.basis().grid().communicator()) >
+           harmless * force_scale_of_strain() /
+             active.basis().grid().smallest_size();
   }
 
 
@@ -168,6 +183,7 @@ namespace Impoint
     ScopedSeconds timer(seconds.assembly);
     ++counters.residuals;
     counters.tangents += tangent_wanted;
+    new_matrix |= tangent_wanted;
     scale = assembly.assemble(u,
                               Assembly<dim>::Part::all,
                               tangent_wanted,
@@ -255,6 +271,9 @@ namespace Impoint
                 Utilities::MPI::max(largest_entry(matrix), comm),
                 matrix);
     };
+    if (!new_matrix)
+      return;
+    new_matrix = false;
     if (has_held_nodes())
       {
         cut_nodes(problem.matrix);
@@ -356,6 +375,15 @@ namespace Impoint
 
 
   template <int dim>
+  void NonlinearSystem<dim>::freeze()
+  {
+    for (const auto &method : methods)
+      method->freeze();
+  }
+
+
+
+  template <int dim>
   double NonlinearSystem<dim>::linear_residual(const Vector &delta) const
   {
     // The matrix is without held unknowns; so is the residual.
@@ -398,7 +426,8 @@ namespace Impoint
     };
     assemble(Assembly<dim>::Part::loads, false, nullptr, forces);
     assemble(Assembly<dim>::Part::constraints, true, inertia, full_rest);
-    full_rest = forces;
+    new_matrix = true;
+    full_rest  = forces;
     full_rest.update_ghost_values();
     rest = full_rest;
     for (auto &node : held)

@@ -39,8 +39,10 @@ namespace Impoint
     double              factor         = 1e4;
     std::string         factor_unit    = "E/h";       // E/h|Pa/m
     std::string         superfluous    = "automatic"; // automatic|keep|remove
-    double              band_width     = 1e-6;        // [h]
+    double              band_width     = 1e-8;        // [h]
     bool                small_cut_rule = false;
+    bool                releasing      = false;
+    double              friction       = 0;          // of a slip boundary
     std::string         normals    = "automatic";    // automatic|particle|nodal
     std::string         value_kind = "displacement"; // displacement|velocity
     std::string         motion     = "automatic";

@@ -81,6 +81,12 @@ namespace Impoint
         return true;
       }
 
+      /** Whether tractions are linear in the displacements: no contact. */
+      virtual bool is_linear() const
+      {
+        return true;
+      }
+
       /** Whether the condition holds by multipliers, which a linear solve has
        * to find together with the displacements. */
       virtual bool augmented() const
@@ -96,6 +102,10 @@ namespace Impoint
        * @p fraction of how the multipliers changed in between. */
       virtual void remember_multipliers();
       virtual void cut_multipliers(const double fraction);
+
+      /** From now on in this step what touches goes on touching: ends a cycle
+       * of the active set. */
+      virtual void freeze();
 
       /** Stores gap, force and multiplier of the converged step for range
        * @p r; @p u is null where the condition does not act. */

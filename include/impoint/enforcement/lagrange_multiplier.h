@@ -27,9 +27,7 @@ namespace Impoint
                          std::unique_ptr<BoundaryParticles<dim>> particles);
 
     private:
-      using Law = typename GapMethod<dim>::Law;
-
-      Law law(const unsigned int r, const double area) const override;
+      TractionLaw law(const unsigned int r, const double area) const override;
 
       /** The rule of L Section 3.7: in cells that the boundary cuts near a
        * vertex or along a face, so that no particle sees some node. */

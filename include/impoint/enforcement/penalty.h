@@ -24,9 +24,7 @@ namespace Impoint
               std::unique_ptr<BoundaryParticles<dim>> particles);
 
     private:
-      using Law = typename GapMethod<dim>::Law;
-
-      Law law(const unsigned int r, const double area) const override;
+      TractionLaw law(const unsigned int r, const double area) const override;
     };
   } // namespace Enforcement
 } // namespace Impoint

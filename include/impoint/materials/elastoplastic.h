@@ -67,6 +67,13 @@ namespace Impoint
                    const bool              tangent_wanted,
                    Response<dim>          &response) const override;
 
+      VoigtMatrix<dim> elastic_tangent() const override
+      {
+        VoigtMatrix<dim> result;
+        set_elastic_matrix<dim>(moduli.lambda, moduli.mu, result);
+        return result;
+      }
+
       double young() const override
       {
         return moduli.young;

@@ -117,8 +117,8 @@ namespace Impoint
                            const bool              tangent_wanted,
                            Response<dim>          &response) const = 0;
 
-      /** Tangent of the virgin material at rest. */
-      VoigtMatrix<dim> elastic_tangent() const;
+      /** Tangent of the virgin material at rest, before it yields. */
+      virtual VoigtMatrix<dim> elastic_tangent() const;
 
       /** Young's modulus of the virgin material [Pa]: the scale of penalties.
        */

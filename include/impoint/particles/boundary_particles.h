@@ -68,8 +68,15 @@ namespace Impoint
       return this->data(b)[slot.area];
     }
 
+    /** Of the bodies in 2D [m]; 1 in 3D. */
+    double thickness() const
+    {
+      return body_thickness;
+    }
+
   private:
     std::string boundary_name;
+    double      body_thickness;
     Slots       slot;
   };
 } // namespace Impoint

@@ -56,6 +56,8 @@ namespace Impoint
      * relative residual. */
     double advance(const Vector &delta, const bool tangent_wanted, Vector &u);
 
+    void finish_linear_step(Vector &delta, Vector &u);
+
     bool expects_convergence() const;
 
     const NewtonParameters parameters;

@@ -50,6 +50,10 @@ namespace Impoint
     /** Whether one iteration solves the step. */
     bool is_linear() const;
 
+    /** Whether the boundaries' stiffness costs the material's more digits in
+     * the matrix than a solution should lose. Collective. */
+    bool is_stiff() const;
+
     /** Whether some condition holds by multipliers. */
     bool is_augmented() const;
 
@@ -77,6 +81,9 @@ namespace Impoint
     /** After a correction was cut to the part @p fraction: cuts that of the
      * multipliers. */
     void cut_multipliers(const double fraction);
+
+    /** What touches and slides goes on doing so in this step. */
+    void freeze();
 
     /** Whether the last correction holds displacements that conforming
      * boundaries prescribe, on any rank. */
@@ -134,6 +141,7 @@ namespace Impoint
     LinearProblem<dim>  problem;
     GatheredSolver<dim> solver;
     bool                new_problem = true; // since the solver last heard
+    bool                new_matrix  = true;
     Vector              external, rest, full_rest;
     const Inertia<dim> *inertia    = nullptr;
     double              scale      = 0; // forces that balance [N]

@@ -1,0 +1,65 @@
+#ifndef impoint_enforcement_gap_patch_h
+#define impoint_enforcement_gap_patch_h
+
+#include <impoint/enforcement/traction_law.h>
+#include <impoint/terms/term.h>
+
+#include <array>
+
+namespace Impoint
+{
+  namespace Enforcement
+  {
+    /**
+     * Boundary particles of a cell that share a gap g = g_0 + sum_a L_a u_a and
+     * a traction, L = sum_b A_b H_b / A and A = sum_b A_b.
+     *
+     * Where only the normal gap counts (frictionless slip), it, multiplier and
+     * traction are in component 0, and normal is the first unit vector.
+     */
+    template <int dim>
+    struct GapPatch
+    {
+      static constexpr unsigned int largest_support = 64; // cubic splines in 3D
+
+      /** The traction [Pa], and what it answers to a change of the gap. */
+      struct Answer
+      {
+        Tensor<1, dim> traction;
+        Tensor<2, dim> stiffness;
+        Touch          touch = Touch::sticks;
+      };
+
+      GapPatch(const bool normal_only, const unsigned int n_nodes);
+
+      Tensor<1, dim> gap(const double *u) const;
+
+      /** What the law answers to the gap at the displacements @p u of the cell.
+       * @p frozen, if not null, is what the patch shall do. */
+      Answer answer(const double *u, const Touch *frozen) const;
+
+      /** Adds A L^T t to the residual. */
+      void add_force(const Tensor<1, dim> &traction, CellSystem &system) const;
+
+      /** Adds A L^T k L to the matrix. */
+      void add_stiffness(const Tensor<2, dim> &stiffness,
+                         CellSystem           &system) const;
+
+      /** Sum over the nodes of L_a^T t. */
+      Tensor<1, dim> total(const Tensor<1, dim> &traction) const;
+
+      const bool         normal_only;
+      const unsigned int n_nodes;
+      unsigned int       begin = 0, end = 0; // particles
+      double             area      = 0;
+      bool               near_only = false; // of particles that touch
+      Tensor<1, dim>     normal, start_gap, multiplier;
+      TractionLaw        law;
+
+      std::array<double, largest_support>         values = {}; // whole gap: L_a
+      std::array<Tensor<1, dim>, largest_support> rows; // normal gap: L_a
+    };
+  } // namespace Enforcement
+} // namespace Impoint
+
+#endif

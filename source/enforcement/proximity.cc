@@ -1,0 +1,227 @@
+#include <impoint/base/exceptions.h>
+#include <impoint/enforcement/proximity.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace Impoint
+{
+  namespace Enforcement
+  {
+    namespace
+    {
+      // A point that gets that far beyond a wall in one step has passed it [h].
+      constexpr double passed = 0.05;
+
+      /** A piece of wall, as all ranks know it. */
+      template <int dim>
+      struct Facet
+      {
+        Point<dim>     x, new_x;
+        Tensor<1, dim> normal;
+        double         radius = 0;
+      };
+
+
+
+      /** Particles of all ranks, in the order of ranks. */
+      template <int dim>
+      std::vector<Facet<dim>>
+      all_facets(const BoundaryParticles<dim>  &boundary,
+                 const std::vector<Point<dim>> &new_places,
+                 const MPI_Comm                 communicator)
+      {
+        std::vector<double> own;
+        for (unsigned int b = 0; b < boundary.n(); ++b)
+          {
+            const Tensor<1, dim> normal =
+              boundary.vector(b, boundary.slots().normal);
+            for (unsigned int d = 0; d < dim; ++d)
+              for (const double number :
+                   {boundary.position(b)[d], new_places[b][d], normal[d]})
+                own.push_back(number);
+            own.push_back(0.5 *
+                          std::pow(boundary.area(b) / boundary.thickness(),
+                                   1. / (dim - 1)));
+          }
+        std::vector<Facet<dim>> facets;
+        for (const auto &part : Utilities::MPI::all_gather(communicator, own))
+          for (auto number = part.begin(); number != part.end();)
+            {
+              Facet<dim> facet;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  facet.x[d]      = *number++;
+                  facet.new_x[d]  = *number++;
+                  facet.normal[d] = *number++;
+                }
+              facet.radius = *number++;
+              facets.push_back(facet);
+            }
+        return facets;
+      }
+
+
+
+      /** Half the edge of the cube of a point's present volume. */
+      template <int dim>
+      double half_edge(const MaterialPoints<dim> &points,
+                       const unsigned int         p,
+                       const double               thickness)
+      {
+        const double volume = points.data(p)[points.slots().volume] *
+                              determinant(points.deformation_gradient(p)) /
+                              thickness;
+        return 0.5 * std::pow(std::max(volume, 0.), 1. / dim);
+      }
+
+
+
+      /** Calls function(p) for this rank's points in cells within @p reach of
+       * @p x. */
+      template <int dim, typename Function>
+      void for_points_near(const Point<dim>          &x,
+                           const double               reach,
+                           const ActiveNodes<dim>    &active,
+                           const MaterialPoints<dim> &points,
+                           const Function            &function)
+      {
+        Point<dim> lower = x, upper = x;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] -= reach;
+            upper[d] += reach;
+          }
+        for (const unsigned int c :
+             active.basis().grid().cells_near(lower, upper))
+          {
+            const unsigned int k = active.position(c);
+            if (k < active.n_material_cells())
+              for (unsigned int p = points.ranges()[k].begin;
+                   p < points.ranges()[k].end;
+                   ++p)
+                function(p);
+          }
+      }
+
+
+
+      /** Distance of @p away from the line along @p normal. */
+      template <int dim>
+      double aside(const Tensor<1, dim> &away, const Tensor<1, dim> &normal)
+      {
+        return (away - (away * normal) * normal).norm();
+      }
+    } // namespace
+
+
+
+    template <int dim>
+    std::vector<double> distances(const BoundaryParticles<dim> &boundary,
+                                  const ActiveNodes<dim>       &active,
+                                  const MaterialPoints<dim>    &points)
+    {
+      const auto             &grid = active.basis().grid();
+      const double            h    = grid.smallest_size();
+      std::vector<Point<dim>> places(boundary.n());
+      for (unsigned int b = 0; b < boundary.n(); ++b)
+        places[b] = boundary.position(b);
+      const auto facets = all_facets(boundary, places, grid.communicator());
+      std::vector<double> distance(facets.size(), h);
+      for (unsigned int i = 0; i < facets.size(); ++i)
+        for_points_near(
+          facets[i].x, h, active, points, [&](const unsigned int p) {
+            const Tensor<1, dim> away   = facets[i].x - points.position(p);
+            const double         before = away * facets[i].normal;
+            const double half = half_edge(points, p, boundary.thickness());
+            if (before > -h &&
+                aside(away, facets[i].normal) <=
+                  std::max(facets[i].radius, half) * (1. + 1e-10))
+              distance[i] = std::min(distance[i], before - half);
+          });
+      if (!distance.empty())
+        Utilities::MPI::min(distance, grid.communicator(), distance);
+
+      const auto counts =
+        Utilities::MPI::all_gather(grid.communicator(), boundary.n());
+      const unsigned int rank =
+        Utilities::MPI::this_mpi_process(grid.communicator());
+      const unsigned int first =
+        std::accumulate(counts.begin(), counts.begin() + rank, 0U);
+      return std::vector<double>(distance.begin() + first,
+                                 distance.begin() + first + boundary.n());
+    }
+
+
+
+    template <int dim>
+    void check_crossing(const Methods<dim>                         &methods,
+                        const ActiveNodes<dim>                     &active,
+                        const MaterialPoints<dim>                  &points,
+                        const std::vector<Point<dim>>              &new_places,
+                        const std::vector<std::vector<Point<dim>>> &wall_places)
+    {
+      const auto    &grid    = active.basis().grid();
+      const MPI_Comm comm    = grid.communicator();
+      const double   h       = grid.smallest_size();
+      double         fastest = 0;
+      for (unsigned int p = 0; p < points.n(); ++p)
+        fastest =
+          std::max(fastest, (new_places[p] - points.position(p)).norm_square());
+      for (unsigned int m = 0; m < methods.size(); ++m)
+        if (methods[m]->moves() && methods[m]->is_active())
+          for (unsigned int b = 0; b < wall_places[m].size(); ++b)
+            fastest =
+              std::max(fastest,
+                       (wall_places[m][b] - methods[m]->particles().position(b))
+                         .norm_square());
+      fastest = std::sqrt(Utilities::MPI::max(fastest, comm));
+      if (fastest <= passed * h)
+        return;
+
+      int          crossed = 0;
+      const double thickness =
+        methods.empty() ? 1. : methods.front()->particles().thickness();
+      for (unsigned int m = 0; m < methods.size(); ++m)
+        if (methods[m]->is_active() && methods[m]->constrains())
+          for (const auto &facet :
+               all_facets(methods[m]->particles(), wall_places[m], comm))
+            for_points_near(
+              facet.x,
+              h + 2. * fastest,
+              active,
+              points,
+              [&](const unsigned int p) {
+                const Tensor<1, dim> before = points.position(p) - facet.x,
+                                     after  = new_places[p] - facet.new_x;
+                const double from           = before * facet.normal,
+                             to             = after * facet.normal;
+                if (to <= passed * h || to - from <= passed * h || from > 0)
+                  return;
+                // where it meets the plane of the facet
+                const double         part = from / (from - to);
+                const Tensor<1, dim> meet = before + part * (after - before);
+                crossed |=
+                  aside(meet, facet.normal) <=
+                  std::max(facet.radius, half_edge(points, p, thickness));
+              });
+      if (Utilities::MPI::max(crossed, comm))
+        throw StepFailed("a material point would pass a wall in one step");
+    }
+
+#define IMPOINT_INSTANTIATE(dim)                                               \
+  template std::vector<double> distances(const BoundaryParticles<dim> &,       \
+                                         const ActiveNodes<dim> &,             \
+                                         const MaterialPoints<dim> &);         \
+  template void                check_crossing(const Methods<dim> &,            \
+                                              const ActiveNodes<dim> &,        \
+                                              const MaterialPoints<dim> &,     \
+                                              const std::vector<Point<dim>> &, \
+                                              const std::vector<std::vector<Point<dim>>> &);
+
+    IMPOINT_INSTANTIATE(2)
+    IMPOINT_INSTANTIATE(3)
+#undef IMPOINT_INSTANTIATE
+  } // namespace Enforcement
+} // namespace Impoint
