@@ -57,6 +57,7 @@ namespace Impoint
     double advance(const Vector &delta, const bool tangent_wanted, Vector &u);
 
     bool expects_convergence() const;
+    bool stalls() const;
 
     const NewtonParameters parameters;
     NonlinearSystem<dim>  &system;
