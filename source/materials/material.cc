@@ -10,7 +10,7 @@ namespace Impoint
     VoigtMatrix<dim> Material<dim>::elastic_tangent() const
     {
       std::vector<double> old_history(n_history()), history(n_history());
-      initialise(old_history.data());
+      initialise(Response<dim>(), old_history.data());
       Deformation<dim> rest;
       for (unsigned int d = 0; d < dim; ++d)
         rest.F[d][d] = 1.;
