@@ -86,6 +86,14 @@ namespace Impoint
 
 
     template <int dim>
+    bool GapMethod<dim>::is_symmetric() const
+    {
+      return this->condition.friction == 0;
+    }
+
+
+
+    template <int dim>
     bool GapMethod<dim>::augmented() const
     {
       for (unsigned int r = 0; r < this->boundary->ranges().size(); ++r)

@@ -105,6 +105,7 @@ namespace Impoint
                   gathered.pattern.columns.begin());
             }
       }
+    gathered.symmetric = local.symmetric;
     gather_nodes(local);
     as_one(comm, on_root, [&]() { solver.new_pattern(gathered); });
   }

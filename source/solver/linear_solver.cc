@@ -3,6 +3,7 @@
 #include <impoint/solver/band_preconditioner.h>
 #include <impoint/solver/direct_solver.h>
 #include <impoint/solver/linear_solver.h>
+#include <impoint/solver/lu_solver.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/patterns.h>
@@ -106,11 +107,16 @@ namespace Impoint
 
     unsigned int most_iterations_of_old() const;
 
+    void solve_unsymmetric(const LinearProblem<dim>  &problem,
+                           const std::vector<double> &b,
+                           std::vector<double>       &x);
+
     const LinearSolverParameters &parameters;
     Counters                     &counters;
 
-    bool                    iterative = false;
+    bool                    iterative = false, symmetric = true;
     DirectSolver<dim>       factor;
+    LuSolver<dim>           lu;
     BandPreconditioner<dim> band;
 
     bool         exists  = false; // factor or band, for some matrix
@@ -197,6 +203,24 @@ namespace Impoint
   }
 
   template <int dim>
+  void LinearSolver<dim>::Implementation::solve_unsymmetric(
+    const LinearProblem<dim>  &problem,
+    const std::vector<double> &b,
+    std::vector<double>       &x)
+  {
+    if (!current)
+      {
+        ++counters.factorisations;
+        if (!lu.factorize(problem.matrix))
+          throw StepFailed("The linear system is singular: a body without "
+                           "sufficient supports, or a material that has lost "
+                           "its stiffness");
+        current = true;
+      }
+    lu.vmult(b, x);
+  }
+
+  template <int dim>
   LinearSolver<dim>::LinearSolver(const LinearSolverParameters &parameters,
                                   Counters                     &counters)
     : implementation(std::make_unique<Implementation>(parameters, counters))
@@ -211,10 +235,14 @@ namespace Impoint
     Implementation &data = *implementation;
     data.exists = data.current = data.proved = false;
     data.distrust = data.distrusted = 0;
+    data.symmetric                  = problem.symmetric;
     data.iterative =
+      problem.symmetric &&
       iterative(static_cast<std::size_t>(problem.pattern.n_rows()) * dim,
                 !problem.lattice.empty());
-    if (data.iterative)
+    if (!data.symmetric)
+      data.lu.new_pattern(problem.pattern);
+    else if (data.iterative)
       data.band.new_pattern();
     else
       data.factor.new_pattern(problem.pattern);
@@ -253,6 +281,8 @@ namespace Impoint
     Implementation &data = *implementation;
     Assert(b.size() == problem.pattern.n_rows() * dim,
            ExcDimensionMismatch(b.size(), problem.pattern.n_rows() * dim));
+    if (!data.symmetric)
+      return data.solve_unsymmetric(problem, b, x);
     if (data.proved)
       {
         data.factor.vmult(b, x);
@@ -292,6 +322,8 @@ namespace Impoint
   std::string LinearSolver<dim>::description() const
   {
     const Implementation &data = *implementation;
+    if (!data.symmetric)
+      return "UMFPACK";
     if (!data.iterative)
       return data.factor.supernodal() ? "CHOLMOD (supernodal)" :
                                         "CHOLMOD (simplicial)";

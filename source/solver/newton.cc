@@ -111,17 +111,31 @@ namespace Impoint
 
 
 
+  /** Where a point yields and yields not in turn, full steps lead from one side
+   * of the kink to the other and back, for ever. Steps that must make the
+   * residual smaller end that. */
+  template <int dim>
+  bool Newton<dim>::stalls() const
+  {
+    const unsigned int n = history.size();
+    return n >= 3 && history[n - 1] > 0.5 * history[n - 3];
+  }
+
+
+
   template <int dim>
   double Newton<dim>::advance(const Vector &delta,
                               const bool    tangent_wanted,
                               Vector       &u)
   {
-    constexpr double       worst_growth = 2.;
-    constexpr unsigned int max_cuts     = 8;
+    constexpr double       worst_growth  = 2.;
+    constexpr double       least_descent = 0.1;
+    constexpr unsigned int max_cuts      = 8;
     if (!std::isfinite(delta.l2_norm()))
       throw StepFailed("the linear solver's correction is not a number");
     const Vector start(u);
-    double       part = 1.;
+    const bool   must_descend = stalls();
+    double       part         = 1.;
     for (unsigned int cut = 0;; ++cut, part *= 0.5)
       {
         u = start;
@@ -140,7 +154,10 @@ namespace Impoint
             // is nothing to compare its residual with.
             if (last || history.size() == 1 ||
                 std::isfinite(residual) == false ||
-                residual <= worst_growth * history.back())
+                residual <= parameters.tolerance ||
+                residual <=
+                  (must_descend ? 1. - least_descent * part : worst_growth) *
+                    history.back())
               {
                 if (!std::isfinite(residual))
                   throw StepFailed("the residual is not a number");

@@ -82,7 +82,10 @@ namespace Impoint
     ScopedSeconds timer(seconds.pattern);
     ++counters.patterns;
     assembly.new_active_set();
-    problem.pattern = active.pattern();
+    problem.pattern   = active.pattern();
+    problem.symmetric = points.symmetric_tangent();
+    for (const auto &method : methods)
+      problem.symmetric &= method->is_symmetric();
     problem.points.resize(active.n_nodes());
     problem.regularisation.assign(active.n_nodes(), 0.);
     const auto &basis = active.basis();
@@ -158,6 +161,14 @@ namespace Impoint
 
 
 
+  template <int dim>
+  bool NonlinearSystem<dim>::moderate_wanted() const
+  {
+    return problem.symmetric && solver.iterative(active);
+  }
+
+
+
   /** E h^(dim-1): the force of a strain of one. */
   template <int dim>
   double NonlinearSystem<dim>::force_scale_of_strain() const
@@ -187,7 +198,7 @@ namespace Impoint
     scale = assembly.assemble(u,
                               Assembly<dim>::Part::all,
                               tangent_wanted,
-                              tangent_wanted && solver.iterative(active),
+                              tangent_wanted && moderate_wanted(),
                               external,
                               inertia,
                               problem,
@@ -418,7 +429,7 @@ namespace Impoint
       assembly.assemble(zero,
                         part,
                         tangent_wanted,
-                        tangent_wanted && solver.iterative(active),
+                        tangent_wanted && moderate_wanted(),
                         external,
                         with_inertia,
                         problem,

@@ -73,9 +73,9 @@ namespace Impoint
           }
     }
 
-    /** K_ab += V B_a^T c B_b for b >= a, and the geometric part
-     * g_ab += V g_a . tau g_b. */
-    template <int dim>
+    /** K_ab += V B_a^T c B_b, for b >= a only if c is symmetric, and the
+     * geometric part g_ab += V g_a . tau g_b, b >= a. */
+    template <int dim, bool symmetric>
     void add_stiffness(const int                       n,
                        const double                    volume,
                        const Materials::Response<dim> &response,
@@ -108,7 +108,7 @@ namespace Impoint
                 stress_column[i] +=
                   volume * response.stress[voigt_index<dim>(i, j)] * g[j];
             }
-          for (int a = 0; a <= b; ++a)
+          for (int a = 0; a < (symmetric ? b + 1 : n); ++a)
             {
               const double *h     = gradients + a * dim;
               double       *block = blocks + (a * n + b) * dim * dim;
@@ -120,7 +120,7 @@ namespace Impoint
                       sum += h[l] * columns[voigt_index<dim>(i, l) * dim + j];
                     block[i * dim + j] += sum;
                   }
-              if (geometric)
+              if (geometric && a <= b)
                 {
                   double sum = 0;
                   for (int i = 0; i < dim; ++i)
@@ -131,24 +131,26 @@ namespace Impoint
         }
     }
 
-    /** Completes a cell's matrix from its upper blocks and diagonal parts. */
-    template <int dim>
-    void mirror(const int     n,
-                const double *upper,
-                const double *diagonal,
-                double       *matrix)
+    /** Adds up a cell's matrix: blocks, of which the upper ones may stand for
+     * all, and diagonal parts, of which the upper ones do. */
+    template <int dim, bool symmetric>
+    void complete(const int     n,
+                  const double *blocks,
+                  const double *diagonal,
+                  double       *matrix)
     {
       for (int b = 0; b < n; ++b)
         for (int a = 0; a <= b; ++a)
           for (int i = 0; i < dim; ++i)
             for (int j = 0; j < dim; ++j)
               {
-                const double value =
-                  upper[(a * n + b) * dim * dim + i * dim + j] +
-                  (i == j ? diagonal[a * n + b] : 0.);
-                matrix[(a * n + b) * dim * dim + i * dim + j] += value;
+                const int    upper     = (a * n + b) * dim * dim + i * dim + j;
+                const int    lower     = (b * n + a) * dim * dim + j * dim + i;
+                const double geometric = i == j ? diagonal[a * n + b] : 0.;
+                matrix[upper] += blocks[upper] + geometric;
                 if (a != b)
-                  matrix[(b * n + a) * dim * dim + j * dim + i] += value;
+                  matrix[lower] +=
+                    blocks[symmetric ? upper : lower] + geometric;
               }
     }
   } // namespace
@@ -169,8 +171,10 @@ namespace Impoint
     const auto run      = [&](const auto n_static) {
       if (constant)
         add_constant<n_static>(k, system);
+      else if (points.symmetric_tangent())
+        add_cell<n_static, true>(k, system);
       else
-        add_cell<n_static>(k, system);
+        add_cell<n_static, false>(k, system);
     };
     switch (system.n)
       {
@@ -202,16 +206,16 @@ namespace Impoint
 
 
   template <int dim>
-  template <int n_static>
+  template <int n_static, bool symmetric>
   void InternalForce<dim>::add_cell(const unsigned int k,
                                     CellSystem        &system) const
   {
     constexpr int size = array_size<n_static>;
     const int     n    = n_static > 0 ? n_static : system.n;
-    double        upper[size * size * dim * dim], diagonal[size * size];
+    double        blocks[size * size * dim * dim], diagonal[size * size];
     if (system.matrix)
       {
-        std::fill(upper, upper + n * n * dim * dim, 0.);
+        std::fill(blocks, blocks + n * n * dim * dim, 0.);
         std::fill(diagonal, diagonal + n * n, 0.);
       }
 
@@ -240,11 +244,11 @@ namespace Impoint
         const double volume = points.data(p)[points.slots().volume];
         add_force<dim>(n, volume, response.stress, gradients, system.residual);
         if (system.matrix)
-          add_stiffness<dim>(
-            n, volume, response, finite, gradients, upper, diagonal);
+          add_stiffness<dim, symmetric>(
+            n, volume, response, finite, gradients, blocks, diagonal);
       }
     if (system.matrix)
-      mirror<dim>(n, upper, diagonal, system.matrix);
+      complete<dim, symmetric>(n, blocks, diagonal, system.matrix);
   }
 
 

@@ -87,6 +87,12 @@ namespace Impoint
         return true;
       }
 
+      /** Whether its part of the matrix is symmetric: without friction. */
+      virtual bool is_symmetric() const
+      {
+        return true;
+      }
+
       /** Whether the condition holds by multipliers, which a linear solve has
        * to find together with the displacements. */
       virtual bool augmented() const

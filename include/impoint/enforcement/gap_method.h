@@ -30,6 +30,7 @@ namespace Impoint
                const Strength     strength,
                CellSystem        &system) const override;
       bool is_linear() const override;
+      bool is_symmetric() const override;
       bool augmented() const override;
       void update_multipliers(const unsigned int r,
                               CellSystem        &system) override;

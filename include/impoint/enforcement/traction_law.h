@@ -1,6 +1,7 @@
 #ifndef impoint_enforcement_traction_law_h
 #define impoint_enforcement_traction_law_h
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
 namespace Impoint
@@ -50,8 +51,7 @@ namespace Impoint
 
       /**
        * Cuts the traction @p t to what @p touch allows; @p stiffness becomes
-       * its derivative by the gap, but for the friction's dependence on the
-       * pressure, which is not symmetric.
+       * its derivative by the gap, not symmetric where it slides.
        */
       template <int dim>
       void cut(const Touch           touch,
@@ -73,11 +73,14 @@ namespace Impoint
           return;
         const double         part   = bound(pressure) / length;
         const Tensor<2, dim> across = outer_product(normal, normal);
-        const Tensor<2, dim> slip =
-          outer_product(along, along) / (length * length);
-        stiffness = part * stiffness + (1. - part) * across * stiffness -
-                    part * slip * stiffness;
-        t = pressure * normal + part * along;
+        const Tensor<2, dim> one(unit_symmetric_tensor<dim>());
+        const Tensor<1, dim> way = along / length;
+        Tensor<2, dim>       change =
+          across + part * (one - across - outer_product(way, way));
+        if (pressure > 0)
+          change += friction * outer_product(way, normal);
+        stiffness = change * stiffness;
+        t         = pressure * normal + part * along;
       }
 
     private:

@@ -31,15 +31,18 @@ namespace Impoint
   };
 
   /**
-   * A symmetric linear problem on the active nodes, as the solver sees it:
-   * dim unknowns a node, conforming conditions already eliminated (rows and
-   * columns zero but for the diagonal).
+   * A linear problem on the active nodes, as the solver sees it: dim unknowns a
+   * node, conforming conditions already eliminated (rows and columns zero but
+   * for the diagonal).
    */
   template <int dim>
   struct LinearProblem
   {
     BlockPattern     pattern;
     BlockMatrix<dim> matrix;
+
+    /** Whether the values are symmetric; the pattern is. */
+    bool symmetric = true;
 
     /** The same with moderate enforcement, if has_moderate. */
     BlockMatrix<dim> moderate;
@@ -64,7 +67,8 @@ namespace Impoint
   /**
    * Solves the linear problems of a run on one process: a direct
    * factorisation or conjugate gradients with the band preconditioner, chosen
-   * by size and dimension, and keeps either while it serves.
+   * by size and dimension, and keeps either while it serves. What is not
+   * symmetric is always factorised.
    */
   template <int dim>
   class LinearSolver

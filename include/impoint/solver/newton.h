@@ -59,6 +59,7 @@ namespace Impoint
     void finish_linear_step(Vector &delta, Vector &u);
 
     bool expects_convergence() const;
+    bool stalls() const;
 
     const NewtonParameters parameters;
     NonlinearSystem<dim>  &system;

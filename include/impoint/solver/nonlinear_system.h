@@ -123,6 +123,7 @@ namespace Impoint
     }
 
   private:
+    bool   moderate_wanted() const; // whether the solver will use it
     double force_scale() const;
     double force_scale_of_strain() const;
     void   prescribe(const bool first, Vector &delta);

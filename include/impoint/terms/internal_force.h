@@ -20,7 +20,7 @@ namespace Impoint
     void add(const unsigned int k, CellSystem &system) const override;
 
   private:
-    template <int n_static>
+    template <int n_static, bool symmetric>
     void add_cell(const unsigned int k, CellSystem &system) const;
 
     template <int n_static>
