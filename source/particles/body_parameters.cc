@@ -62,12 +62,15 @@ namespace Impoint
                         simplex_rule_sizes_text(3) +
                         "); 0: as many as it has corners.",
                       Patterns::Integer(0, 81));
-    prm.add_parameter("Piece",
-                      piece,
-                      "Clipped: 'centroid': a point for each clipped sub-cell; "
-                      "'gauss': a Gauss rule for each clipped cell, exact to "
-                      "degree 2 n - 1 with n points a direction.",
-                      Patterns::Selection("centroid|gauss"));
+    prm.add_parameter(
+      "Piece",
+      piece,
+      "Clipped: 'centroid': a point for each clipped sub-cell; "
+      "'gauss': a Gauss rule for each clipped cell. With n points "
+      "a direction it is exact to degree 2 n - 1, and for "
+      "products of polynomials of degree n - 1 in each "
+      "coordinate: a basis of degree p wants n = p + 1.",
+      Patterns::Selection("centroid|gauss"));
     prm.add_parameter("Outline",
                       outline,
                       "Clipped, 2D: corners 'x y; x y; ...' [m] instead of a "

@@ -125,7 +125,13 @@ namespace Impoint
                     update_quadrature_points | update_JxW_values)
       {
         if (gauss)
-          piece_quadrature = simplex_rule_of_order<dim>(n);
+          {
+            // n points a direction serve functions of degree n - 1 in each:
+            // their products have this degree on a simplex
+            const unsigned int degree = dim * (n - 1);
+            piece_quadrature          = simplex_rule_of_order<dim>(
+              std::min(degree / 2 + 1, max_simplex_order(dim)));
+          }
       }
 
       /** The points of cell @p c, of which the body holds @p parts. */
@@ -143,7 +149,7 @@ namespace Impoint
         if (held < smallest_part * volume)
           return points;
         if (gauss)
-          full ? add_full_cell(c) : add_pieces(pieces);
+          full ? add_full_cell(c) : add_pieces(c, pieces);
         else
           for (const auto &sub_cell : sub_cells)
             add_sub_cell(sub_cell, vertices, full ? Parts() : pieces);
@@ -210,17 +216,47 @@ namespace Impoint
           add(full_rule.quadrature_point(q), full_rule.JxW(q));
       }
 
-      void add_pieces(const Parts &pieces)
+      /** A body whose sides run along the grid's leaves boxes in its cells: a
+       * tensor rule needs fewer points for the same functions. */
+      void add_pieces(const unsigned int c, const Parts &pieces)
       {
+        if (add_box(c, pieces))
+          return;
         const double jacobian =
           dim == 2 ? 2 : 6; // of a simplex over its volume
         for (const auto &piece : pieces)
-          for (const auto &simplex : piece.simplices())
-            for (unsigned int q = 0; q < piece_quadrature.size(); ++q)
-              add(mapped({simplex.begin(), simplex.end()},
-                         piece_quadrature.point(q)),
-                  piece_quadrature.weight(q) * jacobian *
-                    simplex_volume<dim>(simplex));
+          if (!add_box(c, {piece}))
+            for (const auto &simplex : piece.simplices())
+              for (unsigned int q = 0; q < piece_quadrature.size(); ++q)
+                add(mapped({simplex.begin(), simplex.end()},
+                           piece_quadrature.point(q)),
+                    piece_quadrature.weight(q) * jacobian *
+                      simplex_volume<dim>(simplex));
+      }
+
+      /** Puts a tensor rule into @p pieces if together they are a box along the
+       * edges of the cell; else does nothing and returns false. */
+      bool add_box(const unsigned int c, const Parts &pieces)
+      {
+        if (grid.simplicial() || !grid.is_affine(c))
+          return false;
+        std::vector<Point<dim>> corners;
+        for (const auto &piece : pieces)
+          for (const auto &face : piece.faces())
+            for (const auto &corner : face)
+              corners.push_back(grid.to_reference(c, corner));
+        const BoundingBox<dim> box(corners);
+        const double           held = sum(pieces);
+        if (std::abs(box.volume() * grid.volume(c) - held) >
+            smallest_part * grid.volume(c))
+          return false;
+
+        const auto vertices = grid.vertices(c);
+        const auto rule     = full_quadrature();
+        for (unsigned int q = 0; q < rule.size(); ++q)
+          add(mapped(vertices, box.unit_to_real(rule.point(q))),
+              rule.weight(q) * held);
+        return true;
       }
 
       /** One point at the centroid of what the body holds of the sub-cell; no
