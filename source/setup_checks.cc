@@ -3,6 +3,8 @@
 #include <impoint/particles/facets.h>
 #include <impoint/setup_checks.h>
 
+#include <algorithm>
+
 namespace Impoint
 {
   namespace
@@ -117,10 +119,15 @@ namespace Impoint
     /** Whether the condition is the same with the opposite normal. */
     bool is_two_sided(const ConditionParameters &condition)
     {
+      const std::vector<std::string> on_the_gap = {"penalty",
+                                                   "projected penalty",
+                                                   "augmented Lagrangian",
+                                                   "lagrange multiplier"};
       return condition.constraint == "traction" ||
              (condition.constraint == "fixed" &&
-              (condition.enforcement == "penalty" ||
-               condition.enforcement == "projected penalty"));
+              std::count(on_the_gap.begin(),
+                         on_the_gap.end(),
+                         condition.enforcement) == 1);
     }
 
 

@@ -32,6 +32,8 @@ BLOCK = [HERE / "ranks_falling_block.prm",
          "--set", "Measurements/newton/Quantity = newton"]
 BAR = [HERE / "ranks_bar_3d.prm", "--set", "Time/Step = 0.1",
        "--set", "Output/Checkpoint every = 1"]
+MULTIPLIERS = [*BAR, "--set",
+               "Boundaries/clamp/Enforcement = lagrange multiplier"]
 RANDOM = random.Random(5)
 
 
@@ -126,6 +128,7 @@ def main():
     for ranks in (1, 2):
         kill_and_resume("block", BLOCK, ranks, 5, [3 - ranks, 3])
     kill_and_resume("bar", BAR, 1, 2, [2])
+    kill_and_resume("multipliers", MULTIPLIERS, 1, 1, [3])
 
 
 if __name__ == "__main__":
