@@ -9,6 +9,7 @@ namespace Impoint
   HistoryRow
   history_row(const Measurements::State<dim> &state,
               const Counters                 &counters,
+              const std::size_t               linear_iterations,
               const std::vector<std::unique_ptr<Measurements::Measurement<dim>>>
                 &measurements)
   {
@@ -20,7 +21,7 @@ namespace Impoint
     row.emplace_back("time", state.time);
     row.emplace_back("dt", state.time_step);
     row.emplace_back("Newton iterations", state.residuals.size() - 1);
-    row.emplace_back("linear iterations", counters.linear_iterations);
+    row.emplace_back("linear iterations", linear_iterations);
     row.emplace_back("residual", state.residuals.back());
     row.emplace_back("active cells", counters.visited_cells);
     row.emplace_back("points", state.points.n_global());
@@ -44,9 +45,11 @@ namespace Impoint
   template HistoryRow history_row(
     const Measurements::State<2> &,
     const Counters &,
+    const std::size_t,
     const std::vector<std::unique_ptr<Measurements::Measurement<2>>> &);
   template HistoryRow history_row(
     const Measurements::State<3> &,
     const Counters &,
+    const std::size_t,
     const std::vector<std::unique_ptr<Measurements::Measurement<3>>> &);
 } // namespace Impoint

@@ -22,6 +22,18 @@ namespace Impoint
                       "Steps between two pictures for ParaView (the first and "
                       "last state are always pictured); 0: no pictures at all.",
                       Patterns::Integer(0));
+    prm.add_parameter("Checkpoint every",
+                      checkpoint_every,
+                      "Steps between two checkpoints, from which 'impoint "
+                      "--resume FOLDER' goes on; 0: none by steps. A run that "
+                      "was resumed ends with the same digits.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Checkpoint minutes",
+                      checkpoint_minutes,
+                      "Minutes between two checkpoints; 0: none by time. As "
+                      "the solver starts anew at each, the last digits of long "
+                      "runs depend on when they come.",
+                      Patterns::Double(0));
     prm.leave_subsection();
     file.declare_as_path("Output/Folder");
   }
@@ -146,6 +158,7 @@ namespace Impoint
       {
         boundaries[i].check(file, dim);
         conditions[i].check(file, dim, boundaries[i].kind == "conforming");
+        check_effect(file, conditions[i]);
       }
     time.check(file);
     if (time.is_dynamic() && grid.basis == "quadratic")
@@ -158,6 +171,36 @@ namespace Impoint
     for (const auto &measurement : measurements)
       measurement.check(file, dim);
     check_support(file);
+  }
+
+
+
+  /** Refuses boundaries that would do nothing in the run. */
+  template <int dim>
+  void Scene<dim>::check_effect(const ParameterFile       &file,
+                                const ConditionParameters &condition) const
+  {
+    const std::string traction = condition.section + "/Traction";
+    if (condition.constraint == "traction" && file.value(traction).empty())
+      throw file.error(traction,
+                       "boundary '" + condition.name + "' has no traction",
+                       "Set the load per area, e.g. Traction = " +
+                         std::string(dim == 2 ? "0; -1e3" : "0; 0; -1e3") +
+                         " [Pa].");
+    const std::string run =
+      ", and the run goes from 0 to " + file.value("Time/End time") + " s";
+    if (condition.from >= time.end)
+      throw file.error(condition.section + "/Active from",
+                       "boundary '" + condition.name + "' acts from " +
+                         file.value(condition.section + "/Active from") +
+                         " s on" + run,
+                       "Set an earlier time, or a later 'End time'.");
+    if (condition.until <= 0)
+      throw file.error(condition.section + "/Active until",
+                       "boundary '" + condition.name + "' acts until " +
+                         file.value(condition.section + "/Active until") +
+                         " s" + run,
+                       "Set a later time, or take the boundary away.");
   }
 
 

@@ -1,3 +1,4 @@
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/particles/seeding.h>
 #include <impoint/setup.h>
@@ -49,7 +50,79 @@ namespace Impoint
       unsigned int    n_stresses;
       Expression<dim> stress;
     };
+
+
+
+    /** What a point of body @p b carries when the run begins. */
+    template <int dim>
+    std::vector<double> initial_state(const Scene<dim>          &scene,
+                                      const unsigned int         b,
+                                      const InitialState<dim>   &initial,
+                                      const SeededPoint<dim>    &seed,
+                                      const MaterialPoints<dim> &points)
+    {
+      const BodyParameters &body    = scene.bodies[b];
+      const auto           &slots   = points.slots();
+      const CarriedState   &carried = points.carried();
+      std::vector<double>   state(slots.layout.n_doubles(), 0.);
+      const auto            put = [&](const unsigned int    slot,
+                           const Tensor<1, dim> &value) {
+        for (unsigned int d = 0; d < dim; ++d)
+          state[slot + d] = value[d];
+      };
+      put(slots.x, seed.x);
+      for (unsigned int d = 0; d < dim; ++d)
+        state[slots.F + d * dim + d] = 1.;
+      state[slots.volume] = seed.volume * (dim == 2 ? body.thickness : 1.);
+      state[slots.mass]   = state[slots.volume] * body.density;
+      state[slots.body]   = b;
+      const auto stress   = initial.stress_at(seed.x);
+      for (const unsigned int slot : {slots.stress, slots.initial_stress})
+        if (slot != PropertyLayout::absent)
+          {
+            std::copy(stress.stress.begin(),
+                      stress.stress.end(),
+                      state.begin() + slot);
+            if (dim == 2)
+              state[slot + Voigt<dim>::n] = stress.stress_zz;
+          }
+      if (carried.dynamic)
+        {
+          put(slots.v, initial.velocity.vector(seed.x, 0.));
+          if (scene.time.initial == "expression")
+            put(slots.a, initial.acceleration.vector(seed.x, 0.));
+        }
+      if (carried.n_history > 0)
+        points.material_of_body(b).initialise(stress,
+                                              state.data() + slots.history);
+      return state;
+    }
   } // namespace
+
+
+
+  template <int dim>
+  std::unique_ptr<MaterialPoints<dim>> without_points(const ParameterFile &file,
+                                                      const Scene<dim> &scene,
+                                                      const Basis<dim> &basis)
+  {
+    std::vector<std::shared_ptr<Materials::Material<dim>>> materials;
+    CarriedState                                           carried;
+    carried.dynamic = scene.time.is_dynamic();
+    for (const auto &body : scene.bodies)
+      {
+        materials.push_back(
+          Materials::create_material<dim>(file, body.section + "/Material"));
+        carried.n_history =
+          std::max(carried.n_history, materials.back()->n_history());
+        carried.initial_stress |=
+          !InitialState<dim>(file, body).stress.is_zero() &&
+          !materials.back()->starts_from_stress();
+      }
+    return std::make_unique<MaterialPoints<dim>>(basis,
+                                                 carried,
+                                                 std::move(materials));
+  }
 
 
 
@@ -58,70 +131,32 @@ namespace Impoint
                                                     const Scene<dim>    &scene,
                                                     const Basis<dim>    &basis)
   {
-    std::vector<std::shared_ptr<Materials::Material<dim>>> materials;
-    std::vector<InitialState<dim>>                         initial;
-    CarriedState                                           carried;
-    carried.dynamic = scene.time.is_dynamic();
-    for (const auto &body : scene.bodies)
-      {
-        materials.push_back(
-          Materials::create_material<dim>(file, body.section + "/Material"));
-        initial.emplace_back(file, body);
-        carried.n_history =
-          std::max(carried.n_history, materials.back()->n_history());
-        carried.initial_stress |= !initial.back().stress.is_zero() &&
-                                  !materials.back()->starts_from_stress();
-      }
-
-    auto points =
-      std::make_unique<MaterialPoints<dim>>(basis, carried, materials);
-    const auto &slots = points->slots();
-    const auto  comm  = basis.grid().communicator();
+    auto       points = without_points(file, scene, basis);
+    const auto comm   = basis.grid().communicator();
     std::vector<typename PointCloud<dim>::NewParticle> particles;
     std::size_t                                        first_number = 0;
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       {
-        const BodyParameters &body  = scene.bodies[b];
-        const auto            seeds = seed_body(file, body, basis.grid());
-        for (const auto &seed : seeds)
-          {
-            std::vector<double> state(slots.layout.n_doubles(), 0.);
-            const double        volume =
-              seed.volume * (dim == 2 ? body.thickness : 1.);
-            const auto put = [&](const unsigned int    slot,
-                                 const Tensor<1, dim> &value) {
-              for (unsigned int d = 0; d < dim; ++d)
-                state[slot + d] = value[d];
-            };
-            put(slots.x, seed.x);
-            for (unsigned int d = 0; d < dim; ++d)
-              state[slots.F + d * dim + d] = 1.;
-            state[slots.volume] = volume;
-            state[slots.mass]   = volume * body.density;
-            state[slots.body]   = b;
-            const auto stress   = initial[b].stress_at(seed.x);
-            for (const unsigned int slot : {slots.stress, slots.initial_stress})
-              if (slot != PropertyLayout::absent)
-                {
-                  std::copy(stress.stress.begin(),
-                            stress.stress.end(),
-                            state.begin() + slot);
-                  if (dim == 2)
-                    state[slot + Voigt<dim>::n] = stress.stress_zz;
-                }
-            if (carried.dynamic)
-              {
-                put(slots.v, initial[b].velocity.vector(seed.x, 0.));
-                if (scene.time.initial == "expression")
-                  put(slots.a, initial[b].acceleration.vector(seed.x, 0.));
-              }
-            if (carried.n_history > 0)
-              materials[b]->initialise(stress, state.data() + slots.history);
-            particles.push_back(
-              {seed.cell,
-               types::particle_index(first_number + seed.number),
-               std::move(state)});
-          }
+        const BodyParameters   &body  = scene.bodies[b];
+        const auto              seeds = seed_body(file, body, basis.grid());
+        const InitialState<dim> initial(file, body);
+        on_all_ranks(comm, [&]() {
+          try
+            {
+              for (const auto &seed : seeds)
+                particles.push_back(
+                  {seed.cell,
+                   types::particle_index(first_number + seed.number),
+                   initial_state(scene, b, initial, seed, *points)});
+            }
+          catch (const RunFailed &not_finite)
+            {
+              throw InputError(not_finite.what(),
+                               "section '" + body.section + "'",
+                               "Write an expression that is finite at all "
+                               "points of the body.");
+            }
+        });
         first_number += Utilities::MPI::sum(seeds.size(), comm);
       }
     points->insert(particles);
@@ -134,7 +169,8 @@ namespace Impoint
   typename NonlinearSystem<dim>::Methods
   place_boundaries(const ParameterFile &file,
                    const Scene<dim>    &scene,
-                   const Basis<dim>    &basis)
+                   const Basis<dim>    &basis,
+                   const bool           with_particles)
   {
     typename NonlinearSystem<dim>::Methods methods;
     // Areas are those of the thickness that the bodies have.
@@ -147,104 +183,31 @@ namespace Impoint
           std::make_unique<BoundaryParticles<dim>>(
             basis,
             scene.boundaries[i].name,
-            seed_boundary(file, scene.boundaries[i], basis.grid()),
+            with_particles ?
+              seed_boundary(file, scene.boundaries[i], basis.grid()) :
+              std::vector<SeededBoundaryParticle<dim>>(),
             thickness)));
     return methods;
   }
 
 
 
-  template <int dim>
-  bool check_normals(const ParameterFile          &file,
-                     const BoundaryParameters     &parameters,
-                     const BoundaryParticles<dim> &boundary,
-                     const MaterialPoints<dim>    &points,
-                     const BackgroundGrid<dim>    &grid)
-  {
-    std::vector<std::array<double, 2 * dim + 1>> own;
-    for (unsigned int b = 0; b < boundary.n(); ++b)
-      {
-        own.emplace_back();
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            own.back()[d] = boundary.position(b)[d];
-            own.back()[dim + d] =
-              boundary.vector(b, boundary.slots().normal)[d];
-          }
-        own.back()[2 * dim] = boundary.area(b);
-      }
-    std::vector<unsigned int> n_in_cell(grid.n_cells() + 1, 0);
-    for (const auto &range : points.ranges())
-      n_in_cell[range.cell] = range.end - range.begin;
-    std::vector<unsigned int> begin_of_cell(grid.n_cells(), 0);
-    for (const auto &range : points.ranges())
-      begin_of_cell[range.cell] = range.begin;
-
-    double wrong = 0, judged = 0;
-    for (const auto &part :
-         Utilities::MPI::all_gather(grid.communicator(), own))
-      {
-        // volume-weighted distance to the material on the outer side, and all
-        std::vector<double> sides(2 * part.size() + 1, 0.);
-        for (unsigned int i = 0; i < part.size(); ++i)
-          {
-            const double   reach = 2. * grid.smallest_size();
-            Point<dim>     x, lower, upper;
-            Tensor<1, dim> normal;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                x[d]      = part[i][d];
-                normal[d] = part[i][dim + d];
-                lower[d]  = x[d] - reach;
-                upper[d]  = x[d] + reach;
-              }
-            for (const unsigned int c : grid.cells_near(lower, upper))
-              for (unsigned int k = 0; k < n_in_cell[c]; ++k)
-                {
-                  const unsigned int   p    = begin_of_cell[c] + k;
-                  const Tensor<1, dim> away = points.position(p) - x;
-                  if (away.norm() > reach)
-                    continue;
-                  const double volume = points.data(p)[points.slots().volume];
-                  sides[2 * i] += volume * (away * normal);
-                  sides[2 * i + 1] += volume;
-                }
-          }
-        Utilities::MPI::sum(sides, grid.communicator(), sides);
-        for (unsigned int i = 0; i < part.size(); ++i)
-          if (sides[2 * i + 1] > 0)
-            {
-              judged += part[i][2 * dim];
-              if (sides[2 * i] > 0)
-                wrong += part[i][2 * dim];
-            }
-      }
-    if (wrong > 0.5 * judged)
-      throw file.error(parameters.section + "/Flip normal",
-                       "the normals of boundary '" + parameters.name +
-                         "' point into the material",
-                       std::string("Set Flip normal = ") +
-                         (parameters.flip_normal ? "false" : "true") +
-                         ", or list its corners in the opposite order.");
-    return judged > 0;
-  }
-
+  template std::unique_ptr<MaterialPoints<2>>
+  without_points(const ParameterFile &, const Scene<2> &, const Basis<2> &);
   template std::unique_ptr<MaterialPoints<2>>
   place_bodies(const ParameterFile &, const Scene<2> &, const Basis<2> &);
   template std::unique_ptr<MaterialPoints<3>>
+  without_points(const ParameterFile &, const Scene<3> &, const Basis<3> &);
+  template std::unique_ptr<MaterialPoints<3>>
   place_bodies(const ParameterFile &, const Scene<3> &, const Basis<3> &);
   template typename NonlinearSystem<2>::Methods
-  place_boundaries(const ParameterFile &, const Scene<2> &, const Basis<2> &);
+  place_boundaries(const ParameterFile &,
+                   const Scene<2> &,
+                   const Basis<2> &,
+                   const bool);
   template typename NonlinearSystem<3>::Methods
-  place_boundaries(const ParameterFile &, const Scene<3> &, const Basis<3> &);
-  template bool check_normals(const ParameterFile &,
-                              const BoundaryParameters &,
-                              const BoundaryParticles<2> &,
-                              const MaterialPoints<2> &,
-                              const BackgroundGrid<2> &);
-  template bool check_normals(const ParameterFile &,
-                              const BoundaryParameters &,
-                              const BoundaryParticles<3> &,
-                              const MaterialPoints<3> &,
-                              const BackgroundGrid<3> &);
+  place_boundaries(const ParameterFile &,
+                   const Scene<3> &,
+                   const Basis<3> &,
+                   const bool);
 } // namespace Impoint

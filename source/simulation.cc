@@ -1,11 +1,10 @@
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/base/scoped_seconds.h>
 #include <impoint/boundary_forces.h>
 #include <impoint/enforcement/proximity.h>
-#include <impoint/history_row.h>
-#include <impoint/output/machine.h>
-#include <impoint/output/summary.h>
 #include <impoint/setup.h>
+#include <impoint/setup_checks.h>
 #include <impoint/simulation.h>
 #include <impoint/solver/motion.h>
 #include <impoint/terms/body_force.h>
@@ -23,41 +22,37 @@ namespace Impoint
                               const MPI_Comm    communicator)
     : start_of_run(std::chrono::steady_clock::now())
     , comm(communicator)
+    , failures(communicator)
     , file(file)
     , scene(scene)
     , folder(options.output_folder.empty() ? file.absolute("Output/Folder") :
                                              options.output_folder,
-             options.overwrite,
+             options.overwrite || options.resume,
              comm,
+             options.resume                ? "option --resume" :
              options.output_folder.empty() ? file.place("Output/Folder") :
                                              "option --output")
     , terminal(scene.output.verbosity, comm)
     , grid(file, scene.grid, comm)
     , basis(grid, file, scene.grid)
     , active(basis)
-    , points(place_bodies(file, scene, basis))
+    , points(options.resume ? without_points(file, scene, basis) :
+                              place_bodies(file, scene, basis))
     , conforming(basis)
-    , methods(place_boundaries(file, scene, basis))
+    , methods(place_boundaries(file, scene, basis, !options.resume))
     , inertia(scene.time)
     , history(folder)
     , pictures(folder)
+    , resumed(options.resume)
+    , constant_load(load_is_constant(file, scene))
+    , told_of_lost_load(methods.size(), false)
+    , last_checkpoint(start_of_run)
   {
     for (const auto &body : scene.bodies)
       body_forces.emplace_back(file, body.section + "/Body force", dim);
-    for (unsigned int i = 0, m = 0; i < scene.boundaries.size(); ++i)
-      if (scene.boundaries[i].kind == "conforming")
-        conforming.add_boundary(file,
-                                scene.conditions[i],
-                                scene.boundaries[i].boundary_id);
-      else if (!check_normals(file,
-                              scene.boundaries[i],
-                              methods[m++]->particles(),
-                              *points,
-                              grid))
-        terminal.warning("No material is within 2 h of boundary '" +
-                         scene.boundaries[i].name +
-                         "': whether its normals point out of the material "
-                         "cannot be checked.");
+    step_size.size = scene.time.step;
+    boundary_places.resize(methods.size());
+    check_boundaries();
     system = std::make_unique<NonlinearSystem<dim>>(active,
                                                     *points,
                                                     methods,
@@ -69,12 +64,37 @@ namespace Impoint
     newton = std::make_unique<Newton<dim>>(scene.newton, *system, counters);
     for (const auto &measurement : scene.measurements)
       measurements.push_back(Measurements::create<dim>(file, measurement));
-    boundary_places.resize(methods.size());
-    // Finds probes without material, before anything is written.
-    const auto state = this->state();
-    for (const auto &measurement : measurements)
-      measurement->start(state);
-    seconds.setup = seconds_since(start_of_run);
+    if (resumed)
+      resume(read_newest_checkpoint(folder));
+    else
+      {
+        // Finds probes without material, before anything is written.
+        const auto state = this->state();
+        for (const auto &measurement : measurements)
+          measurement->start(state);
+      }
+    seconds.setup += seconds_since(start_of_run);
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::check_boundaries()
+  {
+    for (unsigned int i = 0, m = 0; i < scene.boundaries.size(); ++i)
+      if (scene.boundaries[i].kind == "conforming")
+        conforming.add_boundary(file,
+                                scene.conditions[i],
+                                scene.boundaries[i].boundary_id);
+      else if (!resumed)
+        for (const auto &doubt :
+             doubts_about_boundary(file,
+                                   scene.boundaries[i],
+                                   scene.conditions[i],
+                                   methods[m++]->particles(),
+                                   *points,
+                                   grid))
+          terminal.warning(doubt);
   }
 
 
@@ -85,10 +105,15 @@ namespace Impoint
     begin();
     try
       {
-        step_through();
+        const StopSignals signals;
+        step_through(signals);
       }
     catch (const RunFailed &failure)
       {
+        // What follows is collective.
+        if (!all_ranks_arrive(*failures))
+          throw;
+        keep_last_good_state();
         end("failed", failure.what());
         throw;
       }
@@ -100,24 +125,30 @@ namespace Impoint
   template <int dim>
   void Simulation<dim>::begin()
   {
-    folder.create();
-    std::ostringstream parameters;
-    file.print_used(parameters);
-    folder.write("parameters.prm", parameters.str());
-
-    activate(0., scene.time.step);
+    if (resumed)
+      {
+        folder.check();
+        history.resume(counters.steps);
+      }
+    else
+      {
+        folder.create();
+        std::ostringstream parameters;
+        file.print_used(parameters);
+        folder.write("parameters.prm", parameters.str());
+      }
+    activate(time, time + step_size.size);
     fill_record();
     terminal.header(run_record);
-    picture();
-  }
-
-
-
-  template <int dim>
-  Measurements::State<dim> Simulation<dim>::state() const
-  {
-    return {
-      *points, methods, active, time, last_step, forces, newton->residuals()};
+    if (resumed)
+      {
+        std::ostringstream text;
+        text << "goes on after step " << counters.steps << " at time " << time
+             << " s";
+        terminal.message(text.str());
+      }
+    else
+      picture();
   }
 
 
@@ -125,41 +156,62 @@ namespace Impoint
   /** Steps of the given size to the end; halved where one fails, and doubled
    * again after two that did not. */
   template <int dim>
-  void Simulation<dim>::step_through()
+  void Simulation<dim>::step_through(const StopSignals &signals)
   {
-    const double given   = scene.time.step;
-    const double end     = scene.time.end;
-    double       dt      = given;
-    unsigned int success = 0;
+    const double given = scene.time.step;
+    const double end   = scene.time.end;
     while (time < end - 1e-9 * given)
       {
         // Steps end on multiples of the given size, without a tiny last one.
         const double left = end - time;
-        const double now  = left < dt * (1. + 1e-9) ? left : dt;
+        const double now =
+          left < step_size.size * (1. + 1e-9) ? left : step_size.size;
         try
           {
             advance(now);
-            if (++success >= 2 && dt < given)
-              {
-                dt      = std::min(2. * dt, given);
-                success = 0;
-              }
           }
         catch (const StepFailed &failure)
           {
-            std::ostringstream text;
-            text << "step " << counters.steps + 1 << " at time " << time
-                 << " s with a step of " << now << " s: " << failure.what();
-            dt      = 0.5 * now;
-            success = 0;
-            ++counters.halved_steps;
-            if (dt < scene.time.smallest * given)
-              throw RunFailed(text.str() +
-                              ". The step cannot be made smaller ('Smallest "
-                              "step' in section 'Time')");
-            terminal.detail(text.str() + "; halved");
+            halve(now, failure);
+            continue;
           }
+        if (++step_size.n_good >= 2 && step_size.size < given)
+          step_size = {std::min(2. * step_size.size, given), 0};
+
+        bool stop = signals.arrived();
+        if (checkpoint_is_due(stop))
+          write_checkpoint();
+        if (stop)
+          throw RunFailed("The run was told to stop by a signal, after step " +
+                          std::to_string(counters.steps) +
+                          "; 'impoint --resume " + folder.path() + "' goes on");
       }
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::halve(const double failed, const StepFailed &failure)
+  {
+    std::string reason = failure.what();
+    reason.erase(reason.find_last_not_of(". ") + 1);
+    std::ostringstream text;
+    text << "step " << counters.steps + 1 << " at time " << time
+         << " s with a step of " << failed << " s: " << reason;
+    ++counters.halved_steps;
+    if (constant_load)
+      throw RunFailed(text.str() +
+                      ". Smaller steps would not help: no load depends on t. "
+                      "Let it grow with time, e.g. Body force = 0; -9.81 * t");
+    step_size = {0.5 * failed, 0};
+    if (step_size.size < scene.time.smallest * scene.time.step)
+      {
+        step_size = {scene.time.step, 0}; // of a run that goes on from here
+        throw RunFailed(text.str() +
+                        ". Steps were halved down to the smallest ('Smallest "
+                        "step' in section 'Time')");
+      }
+    terminal.detail(text.str() + "; halved");
   }
 
 
@@ -174,11 +226,13 @@ namespace Impoint
       changed =
         active.reinit(points->cells(), Enforcement::cells(methods, start, end));
     }
-    if (changed)
+    // Whether a run went on or was resumed after a checkpoint must not show in
+    // its last digits: both begin with a new factor.
+    if (changed || solver_starts_anew)
       system->new_active_set();
-    if (changed || points_changed_cells)
+    if (changed || points_changed_cells || solver_starts_anew)
       system->find_starved_cells();
-    points_changed_cells = false;
+    points_changed_cells = solver_starts_anew = false;
   }
 
 
@@ -225,6 +279,7 @@ namespace Impoint
         set_accelerations(active, accelerations, *points);
       }
     begin_step(dt, time + dt);
+    warn_of_lost_loads();
 
     u.reinit(active.unknowns());
     u.update_ghost_values();
@@ -271,6 +326,7 @@ namespace Impoint
   template <int dim>
   void Simulation<dim>::commit(const double dt)
   {
+    is_whole  = false;
     last_step = dt;
     time += dt;
     ++counters.steps;
@@ -300,6 +356,7 @@ namespace Impoint
     for (const auto &measurement : measurements)
       measurement->end_step(after);
     record();
+    is_whole = true;
   }
 
 
@@ -325,88 +382,6 @@ namespace Impoint
   }
 
 
-
-  template <int dim>
-  void Simulation<dim>::record()
-  {
-    ScopedSeconds timer(seconds.output);
-    counters.visited_cells = Utilities::MPI::sum(active.n_cells(), comm);
-    counters.visited_nodes = active.scalars()->size();
-
-    history.write(history_row(state(), counters, measurements));
-
-    terminal.step({static_cast<unsigned int>(counters.steps),
-                   time,
-                   last_step,
-                   scene.time.end,
-                   newton->iterations(),
-                   static_cast<unsigned int>(counters.linear_iterations),
-                   newton->residuals().back()});
-
-    const bool last = time >= scene.time.end - 1e-9 * scene.time.step;
-    if (scene.output.every > 0 &&
-        (counters.steps % scene.output.every == 0 || last))
-      picture();
-  }
-
-
-
-  template <int dim>
-  void Simulation<dim>::picture()
-  {
-    if (scene.output.every == 0)
-      return;
-    std::vector<const BoundaryParticles<dim> *> boundaries;
-    for (const auto &method : methods)
-      boundaries.push_back(&method->particles());
-    pictures.write(time, *points, boundaries, active, u);
-  }
-
-
-
-  template <int dim>
-  void Simulation<dim>::fill_record()
-  {
-    run_record.scene     = scene.title.empty() ? file.file_name() : scene.title;
-    run_record.dimension = dim;
-    run_record.ranks     = Utilities::MPI::n_mpi_processes(comm);
-    run_record.basis     = basis.name();
-    run_record.points    = points->n_global();
-    run_record.unknowns  = active.unknowns()->size();
-    run_record.boundary_particles = 0;
-    for (const auto &method : methods)
-      run_record.boundary_particles += method->particles().n_global();
-    run_record.boundaries.clear();
-    for (unsigned int i = 0; i < scene.boundaries.size(); ++i)
-      run_record.boundaries.emplace_back(
-        scene.boundaries[i].name,
-        scene.boundaries[i].kind == "conforming" ?
-          "conforming" :
-          (scene.conditions[i].constraint == "traction" ?
-             "traction" :
-             scene.conditions[i].enforcement));
-    run_record.solver      = system->solver_description();
-    run_record.counters    = counters;
-    run_record.seconds     = seconds;
-    run_record.peak_memory = peak_memory(comm);
-  }
-
-
-
-  template <int dim>
-  void Simulation<dim>::end(const std::string &status,
-                            const std::string &message)
-  {
-    seconds.total = seconds_since(start_of_run);
-    fill_record();
-    run_record.status  = status;
-    run_record.message = message;
-    run_record.results.clear();
-    for (const auto &measurement : measurements)
-      measurement->results(run_record.results);
-    write_summary(run_record, folder);
-    terminal.finish(run_record, folder.path());
-  }
 
   template class Simulation<2>;
   template class Simulation<3>;

@@ -21,9 +21,11 @@ namespace Impoint
   {
     void declare(ParameterFile &file);
 
-    std::string  folder    = "output";
-    std::string  verbosity = "normal"; // silent|results|normal|talkative
-    unsigned int every     = 1;        // steps between pictures; 0: none
+    std::string  folder           = "output";
+    std::string  verbosity        = "normal"; // silent|results|normal|talkative
+    unsigned int every            = 1;        // steps between pictures; 0: none
+    unsigned int checkpoint_every = 0;        // steps; 0: none
+    double       checkpoint_minutes = 10;     // 0: none
   };
 
   /**
@@ -57,6 +59,8 @@ namespace Impoint
     Scene() = default;
     void declare_entries(ParameterFile &file);
     void check(const ParameterFile &file) const;
+    void check_effect(const ParameterFile       &file,
+                      const ConditionParameters &condition) const;
     void check_support(const ParameterFile &file) const;
   };
 } // namespace Impoint

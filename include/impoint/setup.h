@@ -9,6 +9,13 @@
 
 namespace Impoint
 {
+  /** The container of the scene's material points, still empty. Throws
+   * InputError. */
+  template <int dim>
+  std::unique_ptr<MaterialPoints<dim>> without_points(const ParameterFile &file,
+                                                      const Scene<dim> &scene,
+                                                      const Basis<dim> &basis);
+
   /** The material points of all bodies with their initial state. Collective;
    * throws InputError. */
   template <int dim>
@@ -16,25 +23,14 @@ namespace Impoint
                                                     const Scene<dim>    &scene,
                                                     const Basis<dim>    &basis);
 
-  /** The nonconforming boundaries, in the order of the scene. Collective;
-   * throws InputError. */
+  /** The nonconforming boundaries, in the order of the scene, with or without
+   * their particles. Collective; throws InputError. */
   template <int dim>
   typename NonlinearSystem<dim>::Methods
   place_boundaries(const ParameterFile &file,
                    const Scene<dim>    &scene,
-                   const Basis<dim>    &basis);
-
-  /**
-   * Whether a boundary's normals point out of the material: throws InputError
-   * if they do not on more than half of its area within 2 h of material.
-   * Returns false if no material is near, so that nobody can say. Collective.
-   */
-  template <int dim>
-  bool check_normals(const ParameterFile          &file,
-                     const BoundaryParameters     &parameters,
-                     const BoundaryParticles<dim> &boundary,
-                     const MaterialPoints<dim>    &points,
-                     const BackgroundGrid<dim>    &grid);
+                   const Basis<dim>    &basis,
+                   const bool           with_particles = true);
 } // namespace Impoint
 
 #endif

@@ -2,7 +2,9 @@
 #define impoint_simulation_h
 
 #include <impoint/base/command_line.h>
+#include <impoint/base/stop_signals.h>
 #include <impoint/measurements/measurement.h>
+#include <impoint/output/checkpoint_file.h>
 #include <impoint/output/history.h>
 #include <impoint/output/pictures.h>
 #include <impoint/output/run_record.h>
@@ -16,6 +18,14 @@
 
 namespace Impoint
 {
+  /** Size of the next step: halved where one fails, and doubled again after two
+   * that did not. */
+  struct StepSize
+  {
+    double       size   = 0; // [s]
+    unsigned int n_good = 0; // steps since it last changed
+  };
+
   /**
    * A run of a scene. The members are the modules in the order of the
    * computation; a step goes through them: activate, project, solve, move,
@@ -25,8 +35,9 @@ namespace Impoint
   class Simulation
   {
   public:
-    /** Builds grid, particles and boundaries; computes and writes nothing.
-     * Throws InputError for what only they reveal. */
+    /** Builds grid, particles and boundaries, or takes up those of the newest
+     * checkpoint; computes and writes nothing. Throws InputError for what only
+     * they reveal. */
     Simulation(ParameterFile    &file,
                const Scene<dim> &scene,
                const RunOptions &options,
@@ -39,23 +50,32 @@ namespace Impoint
   private:
     using Vector = LinearAlgebra::distributed::Vector<double>;
 
+    void check_boundaries();
     void begin();
-    void step_through();
+    void step_through(const StopSignals &signals);
+    void halve(const double failed, const StepFailed &failure);
     void advance(const double dt);
     void begin_step(const double dt, const double end);
     void activate(const double start, const double end);
     void find_new_places();
     void commit(const double dt);
     void sum_forces();
+    void warn_of_lost_loads();
     void record();
     void picture();
     void fill_record();
+    bool checkpoint_is_due(bool &stop) const;
+    void write_checkpoint();
+    void save_or_load(StateArchive &archive);
+    void resume(const StoredState &stored);
+    void keep_last_good_state();
     void end(const std::string &status, const std::string &message);
 
     Measurements::State<dim> state() const;
 
     const std::chrono::steady_clock::time_point                  start_of_run;
     MPI_Comm                                                     comm;
+    Utilities::MPI::DuplicatedCommunicator                       failures;
     ParameterFile                                               &file;
     const Scene<dim>                                            &scene;
     Counters                                                     counters;
@@ -76,8 +96,16 @@ namespace Impoint
     HistoryWriter                                                history;
     Pictures<dim>                                                pictures;
 
-    double                                        time = 0, last_step = 0;
-    bool                                          points_changed_cells = true;
+    double   time = 0, last_step = 0;
+    StepSize step_size;
+    bool     points_changed_cells = true;
+    bool     solver_starts_anew   = false; // after a checkpoint
+    bool is_whole = true; // state of one time, not in the middle of an update
+    const bool        resumed, constant_load;
+    std::size_t       linear_iterations_before = 0; // the last step
+    std::vector<bool> told_of_lost_load;            // per method
+    std::chrono::steady_clock::time_point         last_checkpoint;
+    double                                        earlier_seconds = 0;
     Vector                                        u;
     std::vector<std::vector<Point<dim>>>          boundary_places; // per method
     std::vector<Measurements::BoundaryForce<dim>> forces;

@@ -1,17 +1,16 @@
 #include <impoint/base/command_line.h>
 #include <impoint/base/exceptions.h>
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/base/words.h>
 
 #include <deal.II/base/exceptions.h>
 
 #include <dlfcn.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
-#include <thread>
 
 namespace Impoint
 {
@@ -94,24 +93,6 @@ namespace Impoint
                   "Error: internal error: a library failed without a message"};
         }
     }
-
-
-
-    bool all_ranks_arrive(const MPI_Comm communicator)
-    {
-      MPI_Request request;
-      MPI_Ibarrier(communicator, &request);
-      const auto give_up =
-        std::chrono::steady_clock::now() + std::chrono::seconds(5);
-      int arrived = 0;
-      while (true)
-        {
-          MPI_Test(&request, &arrived, MPI_STATUS_IGNORE);
-          if (arrived || std::chrono::steady_clock::now() > give_up)
-            return arrived;
-          std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-    }
   } // namespace
 
 
@@ -143,6 +124,12 @@ namespace Impoint
         take_option(option, value);
       }
     check();
+    if (run_options.resume)
+      {
+        scene =
+          (std::filesystem::path(resumed_folder) / "parameters.prm").string();
+        run_options.output_folder = resumed_folder;
+      }
   }
 
 
@@ -171,13 +158,51 @@ namespace Impoint
     else if (option == "--version")
       choose(Action::version, option);
     else if (option == "--resume")
-      throw command_line_error("'--resume' is not available yet",
-                               "Run the scene from its beginning.");
+      take_resume(value);
     else
       throw command_line_error("there is no option '" + option + "'",
                                Words::suggestion(option,
                                                  long_options,
                                                  "The options are"));
+  }
+
+
+
+  /** The folder says all: which scene, and where its results go. */
+  void CommandLine::take_resume(const std::string &folder)
+  {
+    choose(Action::run, "--resume");
+    run_options.resume = true;
+    resumed_folder =
+      std::filesystem::absolute(folder).lexically_normal().string();
+  }
+
+
+
+  void CommandLine::check_resume() const
+  {
+    std::string other;
+    if (!scene.empty())
+      other = "the scene '" + scene + "'";
+    else if (!overrides.empty())
+      other = "'--set'";
+    else if (run_options.overwrite)
+      other = "'--overwrite'";
+    else if (!run_options.output_folder.empty())
+      other = "'--output'";
+    if (!other.empty())
+      throw command_line_error("'--resume' and " + other +
+                                 " exclude each other",
+                               "Write 'impoint --resume FOLDER': it goes on "
+                               "with the parameters of the run in FOLDER.");
+    const auto parameters =
+      std::filesystem::path(resumed_folder) / "parameters.prm";
+    std::error_code ignored;
+    if (!std::filesystem::exists(parameters, ignored))
+      throw command_line_error("'" + resumed_folder +
+                                 "' is not the output folder of a run: it has "
+                                 "no parameters.prm",
+                               "Give the folder of a run that was stopped.");
   }
 
 
@@ -196,6 +221,8 @@ namespace Impoint
 
   void CommandLine::check() const
   {
+    if (run_options.resume)
+      return check_resume();
     if (scene.empty() && (action == Action::run || action == Action::check))
       throw command_line_error(
         "no scene is given",
@@ -211,6 +238,8 @@ namespace Impoint
 
   impoint SCENE.prm                      run a scene; mpirun -np N impoint ... in parallel
   impoint --check SCENE.prm              check a scene only, run nothing
+  impoint --resume FOLDER                go on from the newest checkpoint in the output
+                                         folder of a run that was stopped
   impoint --print-parameters [SCENE.prm] every entry with its value, default, range and
                                          meaning; > new.prm makes a scene to start from
   impoint --help | --version
@@ -218,7 +247,6 @@ namespace Impoint
   --set "Section/Entry = value"          override an entry of the scene (repeatable)
   --output FOLDER                        where the results go
   --overwrite                            allow a folder that already holds results
-  --resume FOLDER                        not available yet
 
 Exit status: 0 done; 1 the input is wrong, nothing was computed or written;
 2 the computation could not go on.

@@ -60,6 +60,21 @@ namespace Impoint
 
 
 
+  bool DeclaredPaths::is_unnamed(const std::string &path) const
+  {
+    std::string outermost;
+    for (std::string section = path; !section.empty();
+         section             = Words::parent(section))
+      if (sections.count(section) == 0)
+        outermost = section;
+    const std::string list = Words::parent(outermost);
+    return !list.empty() &&
+           std::find(entries.begin(), entries.end(), list + "/Names") !=
+             entries.end();
+  }
+
+
+
   void DeclaredPaths::require_entry(const std::string &path,
                                     const std::string &place) const
   {

@@ -126,10 +126,17 @@ namespace Impoint
       paths.push_back(entry.path);
     const DeclaredPaths known(paths);
 
-    for (const auto &section : assignments.sections)
-      known.require_section(section.first, section.second.place());
+    // A scene may leave out what a file describes that it includes.
+    const auto is_included = [&](const Assignments::Assignment &assignment) {
+      return !assignment.file.empty() && assignment.file != scene_file;
+    };
+    for (const auto &[path, assignment] : assignments.sections)
+      if (!is_included(assignment) || !known.is_unnamed(path))
+        known.require_section(path, assignment.place());
     for (const auto &path : assignments.order)
-      known.require_entry(path, place(path));
+      if (!is_included(assignments.entries.at(path)) ||
+          !known.is_unnamed(Words::parent(path)))
+        known.require_entry(path, place(path));
     for (const auto &entry : declared)
       {
         defaults[entry.path] = entry.default_value;

@@ -1,4 +1,5 @@
 #include <impoint/base/expression.h>
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/grid/background_grid.h>
 
@@ -82,9 +83,12 @@ namespace Impoint
     const Expression<dim> where(file, parameters.section + "/Refine where", 1);
     for (unsigned int i = 0; i < parameters.refine_times; ++i)
       {
-        for (const auto &cell : mesh->active_cell_iterators())
-          if (cell->is_locally_owned() && where.value(cell->center(), 0, 0) > 0)
-            cell->set_refine_flag();
+        on_all_ranks(comm, [&]() {
+          for (const auto &cell : mesh->active_cell_iterators())
+            if (cell->is_locally_owned() &&
+                where.value(cell->center(), 0, 0) > 0)
+              cell->set_refine_flag();
+        });
         mesh->execute_coarsening_and_refinement();
       }
   }

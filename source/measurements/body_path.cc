@@ -96,6 +96,15 @@ namespace Impoint
         std::remainder(angle_now(state, of_mass) - angle, 2 * numbers::PI);
       this->set({of_mass.displacement * direction, angle}, state.time);
     }
+
+
+
+    template <int dim>
+    void BodyPath<dim>::save_or_load(StateArchive &archive)
+    {
+      NamedValues<dim>::save_or_load(archive);
+      archive &angle;
+    }
   } // namespace Measurements
 } // namespace Impoint
 

@@ -55,6 +55,15 @@ namespace Impoint
       if (std::isfinite(smallest_order))
         results.push_back({name + " order", smallest_order});
     }
+
+
+
+    template <int dim>
+    void Convergence<dim>::save_or_load(StateArchive &archive)
+    {
+      archive.tag(name);
+      archive &iterations &most_iterations &smallest_order;
+    }
   } // namespace Measurements
 } // namespace Impoint
 

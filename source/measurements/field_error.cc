@@ -1,3 +1,4 @@
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/base/tensor_functions.h>
 #include <impoint/measurements/field_error.h>
@@ -121,21 +122,23 @@ namespace Impoint
                      parameters.scale,
                      selection.weights,
                      selection.wanted);
-      for (unsigned int p = 0; p < points.n(); ++p)
-        if (is_in_body(points, p, body))
-          {
-            const Values     all = values(points, p);
-            const Point<dim> x   = place(points, p);
-            Values           here, should;
-            for (unsigned int i = 0; i < selection.given.size(); ++i)
-              {
-                here[i]   = all[selection.given[i]];
-                should[i] = exact.value(x, state.time, i);
-              }
-            norm.add(here.data(),
-                     should.data(),
-                     points.data(p)[points.slots().volume]);
-          }
+      on_all_ranks(state.active.basis().grid().communicator(), [&]() {
+        for (unsigned int p = 0; p < points.n(); ++p)
+          if (is_in_body(points, p, body))
+            {
+              const Values     all = values(points, p);
+              const Point<dim> x   = place(points, p);
+              Values           here, should;
+              for (unsigned int i = 0; i < selection.given.size(); ++i)
+                {
+                  here[i]   = all[selection.given[i]];
+                  should[i] = exact.value(x, state.time, i);
+                }
+              norm.add(here.data(),
+                       should.data(),
+                       points.data(p)[points.slots().volume]);
+            }
+      });
       return norm;
     }
 

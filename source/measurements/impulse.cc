@@ -23,6 +23,15 @@ namespace Impoint
       this->set(std::vector<double>(impulse.begin_raw(), impulse.end_raw()),
                 state.time);
     }
+
+
+
+    template <int dim>
+    void Impulse<dim>::save_or_load(StateArchive &archive)
+    {
+      NamedValues<dim>::save_or_load(archive);
+      archive &last_force &impulse;
+    }
   } // namespace Measurements
 } // namespace Impoint
 

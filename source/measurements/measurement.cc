@@ -53,6 +53,11 @@ namespace Impoint
           limited->results(results);
         }
 
+        void save_or_load(StateArchive &archive) override
+        {
+          limited->save_or_load(archive);
+        }
+
       private:
         /** The end of a step may miss the limit by the round-off of its time.
          */

@@ -87,6 +87,15 @@ namespace Impoint
 
 
     template <int dim>
+    void NamedValues<dim>::save_or_load(StateArchive &archive)
+    {
+      archive.tag(Words::join(labels, ", "));
+      archive &values &time;
+    }
+
+
+
+    template <int dim>
     std::vector<std::string> with_components(const std::string &symbol)
     {
       std::vector<std::string> names;

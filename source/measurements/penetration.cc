@@ -107,6 +107,15 @@ namespace Impoint
     {
       results.push_back({this->name + " depth", largest});
     }
+
+
+
+    template <int dim>
+    void Penetration<dim>::save_or_load(StateArchive &archive)
+    {
+      NamedValues<dim>::save_or_load(archive);
+      archive &largest;
+    }
   } // namespace Measurements
 } // namespace Impoint
 

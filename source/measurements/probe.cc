@@ -175,6 +175,15 @@ namespace Impoint
       for (unsigned int d = 0; d < dim; ++d)
         row.emplace_back(this->name + " " + "xyz"[d], place[d]);
     }
+
+
+
+    template <int dim>
+    void Probe<dim>::save_or_load(StateArchive &archive)
+    {
+      NamedValues<dim>::save_or_load(archive);
+      archive &place &displacement &search_radius;
+    }
   } // namespace Measurements
 } // namespace Impoint
 

@@ -7,6 +7,28 @@ namespace Impoint
   {
     namespace
     {
+      /** Per initial volume, S0 : E: the potential of the initial stress that
+       * MaterialPoints::respond() adds. */
+      template <int dim>
+      double initial_stress_energy(const MaterialPoints<dim> &points,
+                                   const unsigned int         p)
+      {
+        const Tensor<2, dim> F = points.deformation_gradient(p);
+        const Tensor<2, dim> E =
+          0.5 * (transpose(F) * F - unit_symmetric_tensor<dim>());
+        double energy = 0;
+        for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
+          {
+            const unsigned int i = Voigt<dim>::row(k),
+                               j = Voigt<dim>::column(k);
+            energy += (i == j ? 1. : 2.) * E[i][j] *
+                      points.data(p)[points.slots().initial_stress + k];
+          }
+        return energy;
+      }
+
+
+
       /** Strain energy of point @p p as it stands. */
       template <int dim>
       double strain_energy_of(const MaterialPoints<dim> &points,
@@ -22,8 +44,11 @@ namespace Impoint
           response.stress[k] = state[slots.stress + k];
         if constexpr (dim == 2)
           response.stress_zz = state[slots.stress + Voigt<dim>::n];
-        return state[slots.volume] *
-               points.material(p).energy(deformation, response);
+        double density = points.material(p).energy(deformation, response);
+        if (points.carried().initial_stress &&
+            !points.material(p).starts_from_stress())
+          density += initial_stress_energy(points, p);
+        return state[slots.volume] * density;
       }
 
 

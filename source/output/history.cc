@@ -1,3 +1,4 @@
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/output/history.h>
 
 #include <deal.II/base/exceptions.h>
@@ -37,6 +38,37 @@ namespace Impoint
 
 
 
+  void HistoryWriter::resume(const std::size_t n_rows)
+  {
+    if (n_rows > 0)
+      on_root(comm, [&]() { cut(n_rows); });
+  }
+
+
+
+  void HistoryWriter::cut(const std::size_t n_rows)
+  {
+    std::ifstream old(path);
+    std::string   kept, line;
+    std::size_t   n_lines = 0;
+    while (n_lines < n_rows + 1 && std::getline(old, line) && !old.eof())
+      {
+        if (n_lines++ == 0)
+          header = line;
+        kept += line + '\n';
+      }
+    if (n_lines < n_rows + 1)
+      throw InputError("the history '" + path + "' has fewer rows than the " +
+                         std::to_string(n_rows) + " steps of the checkpoint",
+                       "option --resume",
+                       "Run the scene from its beginning.");
+    old.close();
+    write_atomically(path, kept);
+    file.open(path, std::ios::app);
+  }
+
+
+
   void HistoryWriter::write(const HistoryRow &row)
   {
     on_root(comm, [&]() { append(row); });
@@ -59,8 +91,8 @@ namespace Impoint
         file.open(path, std::ios::trunc);
         values = names + '\n' + values;
       }
-    Assert(names == header,
-           ExcMessage("Columns of history.csv change: " + names));
+    if (names != header)
+      throw RunFailed("the columns of '" + path + "' are not those of the run");
 
     // in one piece, so that no part of a row reaches the disk alone
     values += '\n';

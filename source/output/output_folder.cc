@@ -1,3 +1,4 @@
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/output/output_folder.h>
 
 #include <unistd.h>
@@ -25,8 +26,10 @@ namespace Impoint
                                         "boundary.pvd",
                                         "grid.pvd"};
 
-    const std::regex
-      result_vtu_file("(points|boundary|grid)-[0-9]+\\.vtu(\\.part)?");
+    // folders in it, and which files in them are results
+    const std::pair<const char *, std::regex> result_folders[] = {
+      {"vtu", std::regex("(points|boundary|grid)-[0-9]+\\.vtu(\\.part)?")},
+      {"checkpoint", std::regex("step-[0-9]+\\.state(\\.part)?")}};
 
     /** Whether there is something at @p path, as far as one may look. */
     bool is_there(const std::filesystem::path &path)
@@ -78,12 +81,12 @@ namespace Impoint
           fs::create_directories(path);
           for (const char *name : result_files)
             fs::remove(fs::path(path) / name);
-          if (fs::is_directory(fs::path(path) / "vtu"))
-            for (const auto &entry :
-                 fs::directory_iterator(fs::path(path) / "vtu"))
-              if (std::regex_match(entry.path().filename().string(),
-                                   result_vtu_file))
-                fs::remove(entry.path());
+          for (const auto &[name, files] : result_folders)
+            if (fs::is_directory(fs::path(path) / name))
+              for (const auto &entry :
+                   fs::directory_iterator(fs::path(path) / name))
+                if (std::regex_match(entry.path().filename().string(), files))
+                  fs::remove(entry.path());
         }
       catch (const fs::filesystem_error &error)
         {
@@ -95,38 +98,12 @@ namespace Impoint
       return {};
     }
 
-    /** Throws on all ranks what rank 0 found. */
-    void throw_on_all_ranks(const FolderProblem &found,
-                            const std::string   &place,
-                            const MPI_Comm       communicator)
+    void complain_of(const FolderProblem &found, const std::string &place)
     {
-      const std::string wrong =
-        Utilities::MPI::broadcast(communicator, found.wrong);
-      const std::string advice =
-        Utilities::MPI::broadcast(communicator, found.advice);
-      if (!wrong.empty())
-        throw InputError(wrong, place, advice);
+      if (!found.wrong.empty())
+        throw InputError(found.wrong, place, found.advice);
     }
   } // namespace
-
-
-
-  void on_root(const MPI_Comm communicator, const std::function<void()> &action)
-  {
-    std::string message;
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      try
-        {
-          action();
-        }
-      catch (const std::exception &error)
-        {
-          message = error.what();
-        }
-    message = Utilities::MPI::broadcast(communicator, message);
-    if (!message.empty())
-      throw RunFailed(message);
-  }
 
 
 
@@ -150,6 +127,34 @@ namespace Impoint
 
 
 
+  void collect_on_root(const std::string                              &piece,
+                       const MPI_Comm                                  comm,
+                       const std::function<void(const std::string &)> &take)
+  {
+    const int tag = 271;
+    if (Utilities::MPI::this_mpi_process(comm) != 0)
+      {
+        MPI_Send(piece.data(), piece.size(), MPI_CHAR, 0, tag, comm);
+        return;
+      }
+    take(piece);
+    std::string received;
+    for (unsigned int rank = 1; rank < Utilities::MPI::n_mpi_processes(comm);
+         ++rank)
+      {
+        MPI_Status status;
+        int        size = 0;
+        MPI_Probe(rank, tag, comm, &status);
+        MPI_Get_count(&status, MPI_CHAR, &size);
+        received.resize(size);
+        MPI_Recv(
+          received.data(), size, MPI_CHAR, rank, tag, comm, MPI_STATUS_IGNORE);
+        take(received);
+      }
+  }
+
+
+
   OutputFolder::OutputFolder(const std::string &path,
                              const bool         overwrite,
                              const MPI_Comm     communicator,
@@ -164,10 +169,9 @@ namespace Impoint
 
   void OutputFolder::check() const
   {
-    FolderProblem problem;
-    if (Utilities::MPI::this_mpi_process(comm) == 0)
-      problem = find_folder_problem(folder, overwrite);
-    throw_on_all_ranks(problem, place, comm);
+    on_root(comm, [&]() {
+      complain_of(find_folder_problem(folder, overwrite), place);
+    });
   }
 
 
@@ -175,10 +179,7 @@ namespace Impoint
   void OutputFolder::create() const
   {
     check();
-    FolderProblem problem;
-    if (Utilities::MPI::this_mpi_process(comm) == 0)
-      problem = prepare_folder(folder);
-    throw_on_all_ranks(problem, place, comm);
+    on_root(comm, [&]() { complain_of(prepare_folder(folder), place); });
   }
 
 

@@ -1,3 +1,4 @@
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/output/vtu_writer.h>
 
 #include <deal.II/base/data_out_base.h>
@@ -162,39 +163,6 @@ namespace Impoint
           patches, layout.names, layout.ranges, flags, piece);
       return piece.str();
     }
-
-    /** Writes the pieces of all ranks in turn to rank 0's @p out. Does not
-     * throw, which would leave the other ranks waiting. */
-    void collect_pieces(const std::string &piece,
-                        const MPI_Comm     comm,
-                        std::ostream      &out)
-    {
-      const int tag = 271;
-      if (Utilities::MPI::this_mpi_process(comm) != 0)
-        {
-          MPI_Send(piece.data(), piece.size(), MPI_CHAR, 0, tag, comm);
-          return;
-        }
-      out << piece;
-      std::string received;
-      for (unsigned int rank = 1; rank < Utilities::MPI::n_mpi_processes(comm);
-           ++rank)
-        {
-          MPI_Status status;
-          int        size = 0;
-          MPI_Probe(rank, tag, comm, &status);
-          MPI_Get_count(&status, MPI_CHAR, &size);
-          received.resize(size);
-          MPI_Recv(received.data(),
-                   size,
-                   MPI_CHAR,
-                   rank,
-                   tag,
-                   comm,
-                   MPI_STATUS_IGNORE);
-          out << received;
-        }
-    }
   } // namespace
 
 
@@ -243,7 +211,9 @@ namespace Impoint
         std::filesystem::create_directory(folder + "/vtu", ignored);
         file.open(part, std::ios::binary);
       }
-    collect_pieces(piece, comm, file);
+    collect_on_root(piece, comm, [&](const std::string &of_rank) {
+      file << of_rank;
+    });
 
     times_and_files.emplace_back(time, file_name);
     on_root(comm, [&]() {

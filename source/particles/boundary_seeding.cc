@@ -1,4 +1,5 @@
 #include <impoint/base/parameter_file.h>
+#include <impoint/particles/facet_cutter.h>
 #include <impoint/particles/facets.h>
 #include <impoint/particles/numbering.h>
 #include <impoint/particles/seeding.h>
@@ -7,19 +8,14 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace Impoint
 {
   namespace
   {
-    // Facets and particles that are closer to a face of the grid, relative to
-    // the cells' size, lie on it. Not a round number, lest a scene that moves a
-    // boundary towards a face in decades stops just there.
-    const double on_face = 0.7e-10;
-    const double particle_on_face =
-      4e-9; // above that of BackgroundGrid::find()
+    // Particles that are closer to a face of the grid, relative to the cells'
+    // size, lie on it. Above the tolerance of BackgroundGrid::find().
+    const double particle_on_face = 4e-9;
 
 
 
@@ -143,93 +139,6 @@ namespace Impoint
 
 
     template <int dim>
-    Tensor<1, dim> area_vector_of(const Corners<dim> &corners)
-    {
-      if constexpr (dim == 2)
-        return cross_product_2d(corners[1] - corners[0]);
-      else
-        return area_vector(corners);
-    }
-
-
-
-    /** Facets that half spaces can cut: warped quadrilaterals become triangles,
-     * whose rules are exact, too. */
-    template <int dim>
-    std::vector<Corners<dim>> flat_facets(std::vector<Corners<dim>> facets)
-    {
-      std::vector<Corners<dim>> flat;
-      for (const auto &facet : facets)
-        if constexpr (dim == 3)
-          {
-            const Tensor<1, 3> normal = area_vector(facet);
-            const double       height =
-              facet.size() < 4 ?
-                      0. :
-                      std::abs(
-                  (facet[3] - facet[0]) *
-                  cross_product_3d(facet[1] - facet[0], facet[2] - facet[0]));
-            if (height > 1e-12 * std::pow(normal.norm(), 1.5))
-              {
-                flat.push_back({facet[0], facet[1], facet[2]});
-                flat.push_back({facet[0], facet[2], facet[3]});
-              }
-            else
-              flat.push_back(facet);
-          }
-        else
-          flat.push_back(facet);
-      return flat;
-    }
-
-
-
-    /** Cuts facets at the faces of the grid's cells. */
-    template <int dim>
-    class FacetCutter
-    {
-    public:
-      explicit FacetCutter(const BackgroundGrid<dim> &grid)
-        : grid(grid)
-        , tolerance(on_face * grid.smallest_size())
-      {}
-
-      /** The part of @p facet that belongs to the own cell @p c; may be empty.
-       */
-      Corners<dim> part_in(const unsigned int  c,
-                           const Corners<dim> &facet) const
-      {
-        const Tensor<1, dim> normal = area_vector_of(facet);
-        const auto           faces  = grid.faces(c);
-        Corners<dim>         part   = facet;
-        for (unsigned int f = 0; f < faces.size() && !part.empty(); ++f)
-          if (!lies_on(facet, faces[f]))
-            clip(part, faces[f]);
-          else if (normal * faces[f].normal < 0 &&
-                   !grid.cell(c)->at_boundary(f))
-            part.clear(); // the neighbour is on the inner side
-        if (part.size() < dim ||
-            area_vector_of(part).norm() <
-              1e-12 * std::pow(grid.size(c), double(dim - 1)))
-          part.clear();
-        return part;
-      }
-
-    private:
-      bool lies_on(const Corners<dim> &facet, const HalfSpace<dim> &face) const
-      {
-        return std::all_of(facet.begin(), facet.end(), [&](const auto &corner) {
-          return std::abs((corner - face.point) * face.normal) <= tolerance;
-        });
-      }
-
-      const BackgroundGrid<dim> &grid;
-      const double               tolerance;
-    };
-
-
-
-    template <int dim>
     std::vector<SeededBoundaryParticle<dim>>
     seed_cut(const std::vector<Corners<dim>> &facets,
              const FacetRule<dim>            &rule,
@@ -238,30 +147,21 @@ namespace Impoint
       const FacetCutter<dim>                   cutter(grid);
       std::vector<SeededBoundaryParticle<dim>> mine;
       std::vector<ParticleGroup>               groups;
-      Tensor<1, dim>                           margin;
-      for (unsigned int d = 0; d < dim; ++d)
-        margin[d] = 1e-9 * grid.smallest_size();
       for (unsigned int f = 0; f < facets.size(); ++f)
-        {
-          const auto box = BoundingBox<dim>(facets[f]).get_boundary_points();
-          for (const unsigned int c :
-               grid.cells_near(box.first - margin, box.second + margin))
-            {
-              const auto part = grid.is_owned(c) ?
-                                  cutter.part_in(c, facets[f]) :
-                                  Corners<dim>();
-              if (part.empty())
-                continue;
-              const auto particles = rule.particles(part);
-              groups.push_back(
-                {f, grid.cell(c)->id(), unsigned(particles.size())});
-              for (auto particle : particles)
-                {
-                  particle.cell = c;
-                  mine.push_back(particle);
-                }
-            }
-        }
+        for (const unsigned int c : cutter.cells_near(facets[f]))
+          {
+            const auto part = cutter.part_in(c, facets[f]);
+            if (part.empty())
+              continue;
+            const auto particles = rule.particles(part);
+            groups.push_back(
+              {f, grid.cell(c)->id(), unsigned(particles.size())});
+            for (auto particle : particles)
+              {
+                particle.cell = c;
+                mine.push_back(particle);
+              }
+          }
       const auto  first = first_numbers(groups, grid.communicator());
       std::size_t b     = 0;
       for (unsigned int g = 0; g < groups.size(); ++g)

@@ -336,6 +336,10 @@ namespace Impoint
           for (const auto &polygon : corners)
             add_polygon(file, boundary, polygon, facets);
       }
+    if (facets.empty())
+      throw file.error(boundary.section + "/Polyline",
+                       "the polyline '" + boundary.polyline + "' has no length",
+                       "Give corners that differ.");
     if (boundary.flip_normal)
       for (auto &facet : facets)
         std::reverse(facet.begin(), facet.end());

@@ -1,4 +1,5 @@
 #include <impoint/base/exceptions.h>
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/particles/point_cloud.h>
 
 #include <deal.II/base/mpi.h>
@@ -230,27 +231,24 @@ namespace Impoint
     const auto answered =
       Utilities::MPI::all_gather(grid.communicator(), answers);
 
-    std::string lost;
-    for (unsigned int i = 0; i < strays.size(); ++i)
-      {
-        unsigned int rank = 0;
-        while (rank < answered.size() &&
-               answered[rank][me][i] == BackgroundGrid<dim>::nowhere)
-          ++rank;
-        if (rank < answered.size())
+    on_all_ranks(grid.communicator(), [&]() {
+      for (unsigned int i = 0; i < strays.size(); ++i)
+        {
+          unsigned int rank = 0;
+          while (rank < answered.size() &&
+                 answered[rank][me][i] == BackgroundGrid<dim>::nowhere)
+            ++rank;
+          if (rank == answered.size())
+            {
+              std::ostringstream message;
+              message << "point " << ids[strays[i]] << " left the grid at ("
+                      << places[i]
+                      << "). Enlarge the grid there, or hold the body";
+              throw StepFailed(message.str());
+            }
           moves.push_back({strays[i], answered[rank][me][i], rank});
-        else if (lost.empty())
-          {
-            std::ostringstream message;
-            message << "point " << ids[strays[i]] << " left the grid at ("
-                    << places[i] << ")";
-            lost = message.str();
-          }
-      }
-    for (const auto &message :
-         Utilities::MPI::all_gather(grid.communicator(), lost))
-      if (!message.empty())
-        throw StepFailed(message);
+        }
+    });
   }
 
 
@@ -343,18 +341,6 @@ namespace Impoint
           if (occupied.back() != move.cell)
             occupied.push_back(move.cell);
         }
-  }
-
-
-
-  template <int dim>
-  std::size_t PointCloud<dim>::memory_consumption() const
-  {
-    return handler->particles.n_locally_owned_particles() *
-             (property_layout.n_doubles() + 2 * dim + 2) * sizeof(double) +
-           supports.capacity() * sizeof(double) +
-           n() * (sizeof(double *) + sizeof(types::particle_index) +
-                  sizeof(Point<dim>) + sizeof(std::size_t));
   }
 
   template class PointCloud<2>;

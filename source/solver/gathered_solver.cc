@@ -1,4 +1,4 @@
-#include <impoint/base/exceptions.h>
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/solver/gathered_solver.h>
 #include <impoint/solver/rigid_modes.h>
 
@@ -17,38 +17,6 @@ namespace Impoint
     , on_root(Utilities::MPI::this_mpi_process(comm) == 0)
     , solver(parameters, counters)
   {}
-
-
-
-  namespace
-  {
-    /** Throws on all ranks what rank 0 threw. */
-    template <typename Function>
-    void
-    as_one(const MPI_Comm comm, const bool on_root, const Function &function)
-    {
-      std::string step_failure, run_failure;
-      if (on_root)
-        try
-          {
-            function();
-          }
-        catch (const StepFailed &failure)
-          {
-            step_failure = failure.what();
-          }
-        catch (const RunFailed &failure)
-          {
-            run_failure = failure.what();
-          }
-      step_failure = Utilities::MPI::broadcast(comm, step_failure);
-      run_failure  = Utilities::MPI::broadcast(comm, run_failure);
-      if (!step_failure.empty())
-        throw StepFailed(step_failure);
-      if (!run_failure.empty())
-        throw RunFailed(run_failure);
-    }
-  } // namespace
 
 
 
@@ -107,7 +75,7 @@ namespace Impoint
       }
     gathered.symmetric = local.symmetric;
     gather_nodes(local);
-    as_one(comm, on_root, [&]() { solver.new_pattern(gathered); });
+    Impoint::on_root(comm, [&]() { solver.new_pattern(gathered); });
   }
 
 
@@ -192,7 +160,7 @@ namespace Impoint
     if (local.has_moderate)
       add_up(local.moderate, gathered.moderate);
     gather_nodes(local);
-    as_one(comm, on_root, [&]() { solver.new_matrix(gathered); });
+    Impoint::on_root(comm, [&]() { solver.new_matrix(gathered); });
   }
 
 
@@ -215,7 +183,7 @@ namespace Impoint
     std::vector<double> whole_b;
     for (const auto &part : parts)
       whole_b.insert(whole_b.end(), part.begin(), part.end());
-    as_one(comm, on_root, [&]() {
+    Impoint::on_root(comm, [&]() {
       solver.solve(gathered, whole_b, solution, looser);
     });
     solution                = Utilities::MPI::broadcast(comm, solution);
@@ -231,7 +199,7 @@ namespace Impoint
   void
   GatheredSolver<dim>::check_rigid_modes(const LinearProblem<dim> &local) const
   {
-    as_one(comm, on_root, [&]() { Impoint::check_rigid_modes(whole(local)); });
+    Impoint::on_root(comm, [&]() { Impoint::check_rigid_modes(whole(local)); });
   }
 
 

@@ -1,3 +1,4 @@
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/terms/body_force.h>
 
 namespace Impoint
@@ -11,23 +12,25 @@ namespace Impoint
   {
     LinearAlgebra::distributed::Vector<double> forces(active.unknowns());
     const unsigned int                         mass = points.slots().mass;
-    for (unsigned int k = 0; k < active.n_material_cells(); ++k)
-      {
-        const auto  nodes = active.nodes(k);
-        const auto &range = points.ranges()[k];
-        for (unsigned int p = range.begin; p < range.end; ++p)
-          {
-            const Expression<dim> &force = body_forces[points.body(p)];
-            if (force.is_zero())
-              continue;
-            const Tensor<1, dim> load =
-              points.data(p)[mass] * force.vector(points.position(p), at);
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              for (unsigned int d = 0; d < dim; ++d)
-                forces.local_element(nodes[a] * dim + d) +=
-                  points.support(p)[a] * load[d];
-          }
-      }
+    on_all_ranks(active.basis().grid().communicator(), [&]() {
+      for (unsigned int k = 0; k < active.n_material_cells(); ++k)
+        {
+          const auto  nodes = active.nodes(k);
+          const auto &range = points.ranges()[k];
+          for (unsigned int p = range.begin; p < range.end; ++p)
+            {
+              const Expression<dim> &force = body_forces[points.body(p)];
+              if (force.is_zero())
+                continue;
+              const Tensor<1, dim> load =
+                points.data(p)[mass] * force.vector(points.position(p), at);
+              for (unsigned int a = 0; a < nodes.size(); ++a)
+                for (unsigned int d = 0; d < dim; ++d)
+                  forces.local_element(nodes[a] * dim + d) +=
+                    points.support(p)[a] * load[d];
+            }
+        }
+    });
     forces.compress(VectorOperation::add);
     return forces;
   }

@@ -91,6 +91,14 @@ void mistakes_of_content()
   attempt(beam + "set Modulus = 3\nend\nend");
   attempt(beam + "end\nsubsection plate\nend\nend");
   attempt(beam + "subsection Material\nset Model = neohook\nend\nend\nend");
+  // what a file describes that is included may be left out, not misspelt
+  std::ofstream("parts/two.prm") << beam + "end\nsubsection plate\nset Mesh = "
+                                           "a\nend\nend";
+  attempt("include parts/two.prm");
+  attempt("include parts/two.prm\nsubsection Bodies\nsubsection plate\n"
+          "set Mesh = b\nend\nend");
+  std::ofstream("parts/two.prm", std::ios::app) << "\nsubsection Newten\nend";
+  attempt("include parts/two.prm");
   attempt("", {"Bodies/Names = beam, b/c"});
   attempt("", {"Bodies/Names = a, a"});
 }

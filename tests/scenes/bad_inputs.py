@@ -74,7 +74,8 @@ def check_command(arguments, says):
 
 def check_two_ranks():
     for setting in ("Newton/Tolerance = 1", "Bodies/bar/Mesh/Shift = 9, 0",
-                    "Boundaries/clamp/Polyline = 0 0; 0 0.5",
+                    "Boundaries/clamp/Polyline = 1 0; 1 0",
+                    "Bodies/bar/Initial stress = log(1.5 - x); 0; 0",
                     "Measurements/tip/Point = 2, 7"):
         complaint([SCENE, "--set", setting], setting, ranks=2)
     print("on two ranks, one message: yes")
@@ -86,6 +87,8 @@ def check_failing_run(ranks):
     process = impoint([SCENE, "--set", "Bodies/bar/Material/Model = Hencky",
                        "--set", "Bodies/bar/Body force = 0; -9810 * t",
                        "--set", "Time/Step = 0.25"], ranks)
+    expect(re.search("halved down to the smallest", process.stderr) and
+           ".." not in process.stderr, process.stderr)
     expect(process.returncode == 2, f"status is not 2:\n{process.stdout}"
            f"{process.stderr}")
     messages = [line for line in process.stderr.splitlines()
@@ -104,6 +107,34 @@ def check_failing_run(ranks):
     print(f"run that cannot go on, {ranks} ranks: status 2, state kept: yes")
 
 
+def check_first_step_fails(ranks):
+    """A load that is there at once: halving the step cannot help."""
+    remove_results()
+    process = impoint([SCENE, "--set", "Bodies/bar/Material/Model = Hencky",
+                       "--set", "Bodies/bar/Body force = 0; -9810"], ranks)
+    said = process.stdout + process.stderr
+    expect(process.returncode == 2 and "no load depends on t" in said, said)
+    summary = json.loads((RESULTS / "summary.json").read_text())
+    expect(summary["counts"]["halved steps"] == 1, "a step was tried again")
+    expect(summary["results"] == {} and "u_x" not in process.stdout,
+           "results though no step was done")
+    print(f"constant load, {ranks} ranks: not halved, no results: yes")
+
+
+def check_expression_fails(ranks):
+    """At the end the load has no value, on the rank with the tip only."""
+    remove_results()
+    process = impoint([SCENE, "--set", "Time/Step = 0.25", "--set",
+                       "Bodies/bar/Body force = 0; -1e-3 * sqrt(1.8 - t * x)"],
+                      ranks)
+    expect(process.returncode == 2 and
+           process.stderr.count("has no finite value at") == 1, process.stderr)
+    summary = json.loads((RESULTS / "summary.json").read_text())
+    expect(summary["counts"]["steps"] == 3 and "tip u_y" in summary["results"],
+           "the steps before are lost")
+    print(f"load without a value, {ranks} ranks: status 2, state kept: yes")
+
+
 def main():
     remove_results()
     Path("unreadable.msh").write_text("no mesh\n")
@@ -117,8 +148,10 @@ def main():
         check_command(*case)
     print(f"{len(COMMANDS)} wrong commands: one message each, nothing written")
     check_two_ranks()
-    check_failing_run(ranks=1)
-    check_failing_run(ranks=2)
+    for ranks in (1, 2):
+        check_failing_run(ranks)
+        check_first_step_fails(ranks)
+        check_expression_fails(ranks)
 
 
 main()

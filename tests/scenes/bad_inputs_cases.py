@@ -9,6 +9,7 @@ COMMANDS: the arguments of impoint, and what the message says.
 
 MESH = "set Generator = subdivided_hyper_rectangle\n      set Arguments = 16"
 CLAMP = "set Polyline = 0 0.5; 0 0"
+CUT = "\n    set Rule = cut\n    set Enforcement = projected penalty"
 QUANTITY = "set Quantity = probe"
 NO_CLAMP = ("""  set Names = clamp
   subsection clamp
@@ -75,8 +76,11 @@ SCENES = [
     ("4 : 0, 0 : 2, 0.5", "4 : 0, 0 : 7, 0.5",
      "points of the body 'bar' lie outside of the grid.*Enlarge the grid",
      "Generator = subdivided_hyper_rectangle\n      "),
-    (CLAMP, "set Polyline = 0 0; 0 0.5", "normals of boundary 'clamp' point "
-     "into the material.*Flip normal = true", ""),
+    (CLAMP, "set Constraint = slip\n    set Polyline = 0 0; 0 0.5", "normals of "
+     "boundary 'clamp' point into the material.*Flip normal = true", ""),
+    (CLAMP, "set Polyline = 1 0; 1 0", "'1 0; 1 0' has no length"),
+    ("set Density", "set Initial stress = log(x - 5); 0; 0\n    set Density",
+     "'Initial stress'.*has no finite value at", ""),
     ("set Point = 2, 0.5", "set Point = 2, 7", "no material.*probe 'tip'"),
     ("set Point = 2, 0.5", "set Point = 2", "'2' is no place.*2 numbers"),
     # what clashes, and what is missing
@@ -95,10 +99,13 @@ SCENES = [
     (CLAMP, "set Rotation centre = 1, 1\n    " + CLAMP, "'Rotation centre'"),
     ("set Density", "set Initial velocity = 1; 0\n    set Density",
      "'Initial velocity'|quasi-static"),
-    (CLAMP + "\n    set Rule = cut\n    set Enforcement = projected penalty",
-     "set Boundary id = 77\n    set Kind = conforming", "no part with id 77"),
+    (CLAMP + CUT, "set Boundary id = 77\n    set Kind = conforming", "no part with id 77"),
     (CLAMP, "set Active from = 2\n    set Active until = 1\n    " + CLAMP,
      "ends before it begins", "set Active until"),
+    (CLAMP, "set Active from = 5\n    " + CLAMP, "acts from 5 s on.*to 1 s"),
+    (CLAMP, "set Active until = 0\n    " + CLAMP, "acts until 0 s"),
+    (CLAMP + CUT, CLAMP + "\n    set Constraint = traction",
+     "'clamp' has no traction.*Traction = 0; -1e3", ""),
     (CLAMP, "", "'clamp' has no shape", ""),
     (MESH, "set File = a.msh\n      " + MESH, "both a mesh file and", MESH),
     ("set Density", "set Outline = 0 0; 1 0; 1 1\n    set Density",
@@ -122,5 +129,9 @@ COMMANDS = [
     ([SCENE, "--check", "--help"], "exclude each other"),
     ([SCENE, "--output", "unreadable.msh"], "unreadable.msh' is a file"),
     ([SCENE, "--output", "/proc/impoint"], "/proc/impoint' cannot be"),
+    (["--resume", "full"], "not the output folder of a run.*no parameters.prm"),
+    (["--resume", "full", SCENE], "'--resume' and the scene.*exclude each"),
+    (["--resume", "full", "--overwrite"], "'--overwrite' exclude each other"),
+    (["--resume", "full", "--check"], "'--check' exclude each other"),
     ([SCENE, "--output", "full"], "already holds the results.*--overwrite"),
 ]

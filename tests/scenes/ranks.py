@@ -97,4 +97,5 @@ def main():
                    f"{name}: {ends[0][name]!r} and {ends[n_ranks - 1][name]!r}")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -13,6 +13,7 @@ namespace Impoint
   {
     std::string output_folder; // absolute; empty: as the scene says
     bool        overwrite = false;
+    bool        resume    = false; // output_folder holds the checkpoint
   };
 
   /** The command line, see usage(). */
@@ -41,8 +42,11 @@ namespace Impoint
     void choose(const Action chosen, const std::string &option);
     void take_option(const std::string &option, const std::string &value);
     void check() const;
+    void take_resume(const std::string &folder);
+    void check_resume() const;
 
-    std::string action_option; // the one that chose the action
+    std::string action_option;  // the one that chose the action
+    std::string resumed_folder; // absolute
   };
 
   /**

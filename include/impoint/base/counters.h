@@ -2,6 +2,7 @@
 #define impoint_base_counters_h
 
 #include <cstddef>
+#include <vector>
 
 namespace Impoint
 {
@@ -24,6 +25,23 @@ namespace Impoint
     std::size_t visited_cells     = 0; // in the last step
     std::size_t visited_nodes     = 0; // in the last step
     std::size_t starved_cells     = 0; // with too few points, in the last step
+
+    std::vector<std::size_t *> all()
+    {
+      return {&steps,
+              &halved_steps,
+              &sorts,
+              &patterns,
+              &tangents,
+              &residuals,
+              &factorisations,
+              &linear_iterations,
+              &newton_iterations,
+              &projections,
+              &visited_cells,
+              &visited_nodes,
+              &starved_cells};
+    }
   };
 
   /** Wall-clock seconds of a run's phases, as printed in summary.json. */
@@ -31,6 +49,19 @@ namespace Impoint
   {
     double total = 0, setup = 0, locate = 0, pattern = 0, project = 0,
            assembly = 0, solve = 0, update = 0, output = 0;
+
+    std::vector<double *> all()
+    {
+      return {&total,
+              &setup,
+              &locate,
+              &pattern,
+              &project,
+              &assembly,
+              &solve,
+              &update,
+              &output};
+    }
   };
 } // namespace Impoint
 

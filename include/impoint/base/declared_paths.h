@@ -18,6 +18,11 @@ namespace Impoint
     void require_section(const std::string &path,
                          const std::string &place) const;
 
+    /** Whether @p path is or lies in the section of a thing that could exist
+     * but is not in its list of names: "A/x" where there is an entry "A/Names".
+     */
+    bool is_unnamed(const std::string &path) const;
+
     /** Throws InputError, with @p place, if there is no such entry. */
     void require_entry(const std::string &path, const std::string &place) const;
 

@@ -20,6 +20,11 @@ namespace Impoint
       : std::runtime_error("Error: " + wrong + "\n  in " + place + "\n  " +
                            advice)
     {}
+
+    /** The message of another one, as a whole. */
+    explicit InputError(const std::string &message)
+      : std::runtime_error(message)
+    {}
   };
 
   /**

@@ -78,6 +78,8 @@ namespace Impoint
      * Gives every recorded entry to the handler, which stores it in the
      * variables registered by add_parameter(). Throws InputError for an unknown
      * section or entry (with a near name) or a value outside its range.
+     * Sections of included files are passed over where they describe a thing
+     * that is not in its list of names: a scene leaves out what it wants.
      */
     void apply();
 

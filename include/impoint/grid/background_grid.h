@@ -94,12 +94,6 @@ namespace Impoint
       return inverse_jacobian[c];
     }
 
-    /** Rank that owns the cell. */
-    unsigned int owner(const unsigned int c) const
-    {
-      return iterators[c]->subdomain_id();
-    }
-
     double volume(const unsigned int c) const;
 
     /** Edge length h of the cell: of the hypercube (or of the simplex that is

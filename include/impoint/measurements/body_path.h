@@ -23,6 +23,7 @@ namespace Impoint
                const MeasurementParameters &parameters);
 
       void end_step(const State<dim> &state) override;
+      void save_or_load(StateArchive &archive) override;
 
     private:
       struct Centres;

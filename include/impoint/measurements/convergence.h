@@ -24,6 +24,7 @@ namespace Impoint
       void end_step(const State<dim> &state) override;
       void columns(HistoryRow &row) const override;
       void results(std::vector<Result> &results) const override;
+      void save_or_load(StateArchive &archive) override;
 
     private:
       const std::string name;

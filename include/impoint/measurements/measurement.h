@@ -1,6 +1,7 @@
 #ifndef impoint_measurements_measurement_h
 #define impoint_measurements_measurement_h
 
+#include <impoint/base/state_archive.h>
 #include <impoint/enforcement/enforcement.h>
 #include <impoint/measurements/measurement_parameters.h>
 #include <impoint/output/run_record.h>
@@ -74,6 +75,10 @@ namespace Impoint
 
       /** Adds the lines of the table of results. */
       virtual void results(std::vector<Result> &results) const = 0;
+
+      /** What a resumed run must know of earlier steps. */
+      virtual void save_or_load(StateArchive & /*archive*/)
+      {}
     };
 
     /** What @p parameters, already checked, ask for. Throws InputError. */

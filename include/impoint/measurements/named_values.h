@@ -24,6 +24,7 @@ namespace Impoint
 
       void columns(HistoryRow &row) const override;
       void results(std::vector<Result> &results) const override;
+      void save_or_load(StateArchive &archive) override;
 
     protected:
       /** One value for each quantity, at @p time. */

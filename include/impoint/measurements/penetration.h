@@ -25,6 +25,7 @@ namespace Impoint
 
       void end_step(const State<dim> &state) override;
       void results(std::vector<Result> &results) const override;
+      void save_or_load(StateArchive &archive) override;
 
     private:
       double depth(const State<dim>             &state,

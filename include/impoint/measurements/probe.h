@@ -30,6 +30,7 @@ namespace Impoint
                   const LinearAlgebra::distributed::Vector<double> &u) override;
       void end_step(const State<dim> &state) override;
       void columns(HistoryRow &row) const override;
+      void save_or_load(StateArchive &archive) override;
 
     private:
       /** A cell that the probe may belong to. */

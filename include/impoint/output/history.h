@@ -17,6 +17,10 @@ namespace Impoint
     /** Opens nothing before the first row. */
     explicit HistoryWriter(const OutputFolder &folder);
 
+    /** Goes on with the file of an earlier run after its first @p n_rows rows;
+     * drops the others. Collective; throws InputError if there are fewer. */
+    void resume(const std::size_t n_rows);
+
     /**
      * Appends @p row (used on rank 0) with 17 digits and hands it to the
      * system at once: a killed run leaves complete rows. All rows have the
@@ -25,6 +29,7 @@ namespace Impoint
     void write(const HistoryRow &row);
 
   private:
+    void cut(const std::size_t n_rows);
     void append(const HistoryRow &row);
 
     std::string   path, header;

@@ -12,14 +12,6 @@ namespace Impoint
 {
   using namespace dealii;
 
-  /**
-   * Runs @p action on rank 0. If it throws there, RunFailed with the same
-   * message is thrown on every rank: a full disk must not leave the others
-   * waiting in the next exchange. Collective.
-   */
-  void on_root(const MPI_Comm               communicator,
-               const std::function<void()> &action);
-
   /** The error of a file that could just now not be written. */
   RunFailed cannot_write(const std::string &path);
 
@@ -28,6 +20,12 @@ namespace Impoint
    * old content or the new, never a part. Throws RunFailed.
    */
   void write_atomically(const std::string &path, const std::string &content);
+
+  /** Hands the @p piece of each rank in turn to @p take on rank 0, which must
+   * not throw. Collective. */
+  void collect_on_root(const std::string                              &piece,
+                       const MPI_Comm                                  comm,
+                       const std::function<void(const std::string &)> &take);
 
   /**
    * The folder of a run's results. All members are collective, files are

@@ -25,6 +25,14 @@ namespace Impoint
                const ActiveNodes<dim>                            &active,
                const LinearAlgebra::distributed::Vector<double>  &u);
 
+    /** Which pictures there are, for a run that is resumed. */
+    void save_or_load(StateArchive &archive)
+    {
+      points_writer.save_or_load(archive);
+      boundary_writer.save_or_load(archive);
+      grid_writer.save_or_load(archive);
+    }
+
   private:
     PointFields<dim> material(const MaterialPoints<dim> &points) const;
     PointFields<dim> boundary(

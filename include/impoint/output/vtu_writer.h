@@ -1,6 +1,7 @@
 #ifndef impoint_output_vtu_writer_h
 #define impoint_output_vtu_writer_h
 
+#include <impoint/base/state_archive.h>
 #include <impoint/output/output_folder.h>
 
 #include <deal.II/base/point.h>
@@ -63,6 +64,12 @@ namespace Impoint
     /** Collective; throws RunFailed. */
     void write(const double time, const PointFields<dim> &points);
     void write(const double time, const GridFields<dim> &grid);
+
+    /** Which files there are, for a run that is resumed. */
+    void save_or_load(StateArchive &archive)
+    {
+      archive &times_and_files;
+    }
 
   private:
     void write_pieces(const double time, const std::string &piece);

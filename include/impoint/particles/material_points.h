@@ -66,6 +66,10 @@ namespace Impoint
     {
       return *materials[body(p)];
     }
+    const Material &material_of_body(const unsigned int number) const
+    {
+      return *materials[number];
+    }
 
     /** The one with the largest Young's modulus: the scale of penalties. */
     const Material &stiffest_material() const;

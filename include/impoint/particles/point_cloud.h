@@ -113,8 +113,6 @@ namespace Impoint
       return property_layout;
     }
 
-    std::size_t memory_consumption() const;
-
   private:
     struct Handler; // Particles::ParticleHandler
 

@@ -78,19 +78,6 @@ namespace Impoint
       return masses.local_element(i);
     }
 
-    Vector &nodal_accelerations()
-    {
-      return accelerations;
-    }
-    const Vector &nodal_accelerations() const
-    {
-      return accelerations;
-    }
-    const Vector &nodal_velocities() const
-    {
-      return velocities;
-    }
-
   private:
     double beta, gamma;
     bool   is_consistent;

@@ -1,0 +1,41 @@
+#ifndef impoint_particles_stored_particles_h
+#define impoint_particles_stored_particles_h
+
+#include <impoint/base/state_archive.h>
+#include <impoint/particles/point_cloud.h>
+
+#include <deal.II/grid/cell_id.h>
+
+#include <map>
+#include <vector>
+
+namespace Impoint
+{
+  /** This rank's own cells by the name that they have on any number of ranks.
+   */
+  using OwnCells = std::map<CellId, unsigned int>;
+
+  template <int dim>
+  OwnCells own_cells(const BackgroundGrid<dim> &grid);
+
+  /** Appends this rank's particles of @p cloud to @p archive, in their order.
+   */
+  template <int dim>
+  void store_particles(const PointCloud<dim>     &cloud,
+                       const BackgroundGrid<dim> &grid,
+                       StateArchive              &archive);
+
+  /**
+   * Reads what each rank stored, in @p archives, and inserts the particles in
+   * own cells into the empty @p cloud. Those of a cell get the order that they
+   * had. Collective; throws InputError, on all ranks, if they do not fit the
+   * cloud or the grid.
+   */
+  template <int dim>
+  void restore_particles(std::vector<StateArchive> &archives,
+                         const OwnCells            &cells,
+                         const MPI_Comm             communicator,
+                         PointCloud<dim>           &cloud);
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,248 @@
+#include <impoint/base/parameter_file.h>
+#include <impoint/base/scoped_seconds.h>
+#include <impoint/history_row.h>
+#include <impoint/output/machine.h>
+#include <impoint/output/summary.h>
+#include <impoint/particles/stored_particles.h>
+#include <impoint/setup_checks.h>
+#include <impoint/simulation.h>
+
+#include <iomanip>
+#include <sstream>
+
+namespace Impoint
+{
+  template <int dim>
+  Measurements::State<dim> Simulation<dim>::state() const
+  {
+    return {
+      *points, methods, active, time, last_step, forces, newton->residuals()};
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::record()
+  {
+    ScopedSeconds timer(seconds.output);
+    counters.visited_cells = Utilities::MPI::sum(active.n_cells(), comm);
+    counters.visited_nodes = active.scalars()->size();
+
+    const std::size_t linear_iterations =
+      counters.linear_iterations - linear_iterations_before;
+    linear_iterations_before = counters.linear_iterations;
+    history.write(
+      history_row(state(), counters, linear_iterations, measurements));
+
+    terminal.step({static_cast<unsigned int>(counters.steps),
+                   time,
+                   last_step,
+                   scene.time.end,
+                   newton->iterations(),
+                   static_cast<unsigned int>(linear_iterations),
+                   newton->residuals().back()});
+
+    const bool last = time >= scene.time.end - 1e-9 * scene.time.step;
+    if (scene.output.every > 0 &&
+        (counters.steps % scene.output.every == 0 || last))
+      picture();
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::picture()
+  {
+    if (scene.output.every == 0)
+      return;
+    std::vector<const BoundaryParticles<dim> *> boundaries;
+    for (const auto &method : methods)
+      boundaries.push_back(&method->particles());
+    pictures.write(time, *points, boundaries, active, u);
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::fill_record()
+  {
+    run_record.scene     = scene.title.empty() ? file.file_name() : scene.title;
+    run_record.dimension = dim;
+    run_record.ranks     = Utilities::MPI::n_mpi_processes(comm);
+    run_record.basis     = basis.name();
+    run_record.points    = points->n_global();
+    run_record.unknowns  = active.unknowns()->size();
+    run_record.boundary_particles = 0;
+    for (const auto &method : methods)
+      run_record.boundary_particles += method->particles().n_global();
+    run_record.boundaries.clear();
+    for (unsigned int i = 0; i < scene.boundaries.size(); ++i)
+      run_record.boundaries.emplace_back(
+        scene.boundaries[i].name,
+        scene.boundaries[i].kind == "conforming" ?
+          "conforming" :
+          (scene.conditions[i].constraint == "traction" ?
+             "traction" :
+             scene.conditions[i].enforcement));
+    run_record.solver      = system->solver_description();
+    run_record.counters    = counters;
+    run_record.seconds     = seconds;
+    run_record.peak_memory = peak_memory(comm);
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::warn_of_lost_loads()
+  {
+    for (unsigned int m = 0; m < methods.size(); ++m)
+      {
+        const auto &condition = methods[m]->parameters();
+        if (condition.constraint != "traction" || told_of_lost_load[m] ||
+            !methods[m]->is_active())
+          continue;
+        const double share = inactive_share(methods[m]->particles(), active);
+        if (share == 0)
+          continue;
+        told_of_lost_load[m] = true;
+        std::ostringstream text;
+        text << std::setprecision(2) << 100 * share << " % of boundary '"
+             << condition.name
+             << "' have no material in their cells: the load there is lost "
+                "(step "
+             << counters.steps + 1 << ")";
+        terminal.warning(text.str());
+      }
+  }
+
+
+
+  /** Whether to write a checkpoint now; sets @p stop if any rank was told to
+   * stop, or to. Collective. */
+  template <int dim>
+  bool Simulation<dim>::checkpoint_is_due(bool &stop) const
+  {
+    const auto  &output  = scene.output;
+    const double minutes = seconds_since(last_checkpoint) / 60.;
+    const bool   in_time =
+      output.checkpoint_minutes > 0 && minutes >= output.checkpoint_minutes;
+    // A run that stops writes one anyway.
+    const int wanted = Utilities::MPI::max(stop ? 2 : (in_time ? 1 : 0), comm);
+    stop             = wanted == 2;
+    return wanted == 1 || (output.checkpoint_every > 0 &&
+                           counters.steps % output.checkpoint_every == 0);
+  }
+
+
+
+  /** All but the particles; the same on all ranks, but for what rank 0 alone
+   * counts and writes. */
+  template <int dim>
+  void Simulation<dim>::save_or_load(StateArchive &archive)
+  {
+    archive.tag("impoint " + std::to_string(dim) + "D");
+    archive &time &last_step &step_size.size &step_size.n_good;
+    for (std::size_t *count : counters.all())
+      archive &*count;
+    for (double *phase : seconds.all())
+      archive &*phase;
+    for (const auto &measurement : measurements)
+      measurement->save_or_load(archive);
+    pictures.save_or_load(archive);
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::write_checkpoint()
+  {
+    ScopedSeconds timer(seconds.output);
+    seconds.total = earlier_seconds + seconds_since(start_of_run);
+    StateArchive of_run, particles, piece;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      save_or_load(of_run);
+    store_particles(*points, grid, particles);
+    for (const auto &method : methods)
+      {
+        particles.tag(method->particles().name());
+        store_particles(method->particles(), grid, particles);
+      }
+    std::string run = of_run.bytes(), rest = particles.bytes();
+    piece &run &rest;
+    Impoint::write_checkpoint(folder, counters.steps, piece.bytes());
+    solver_starts_anew = true;
+    last_checkpoint    = std::chrono::steady_clock::now();
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::resume(const StoredState &stored)
+  {
+    for (const auto &file_name : stored.damaged)
+      terminal.warning("The checkpoint '" + file_name +
+                       "' is damaged: going on from an older one.");
+    std::vector<StateArchive> particles;
+    for (unsigned int rank = 0; rank < stored.pieces.size(); ++rank)
+      {
+        StateArchive piece(stored.pieces[rank]);
+        std::string  run, rest;
+        piece &run  &rest;
+        particles.emplace_back(std::move(rest));
+        StateArchive of_run(std::move(run));
+        if (rank == 0)
+          save_or_load(of_run);
+      }
+    earlier_seconds          = seconds.total;
+    linear_iterations_before = counters.linear_iterations;
+
+    const OwnCells cells = own_cells(grid);
+    restore_particles(particles, cells, comm, *points);
+    for (const auto &method : methods)
+      {
+        for (auto &archive : particles)
+          archive.tag(method->particles().name());
+        restore_particles(particles, cells, comm, method->particles());
+      }
+  }
+
+
+
+  /** A checkpoint of a run that fails, unless there is one of this step or it
+   * fails amid an update. */
+  template <int dim>
+  void Simulation<dim>::keep_last_good_state()
+  {
+    try
+      {
+        if (is_whole && !solver_starts_anew)
+          write_checkpoint();
+      }
+    catch (const RunFailed &failure)
+      {
+        terminal.warning(failure.what());
+      }
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::end(const std::string &status,
+                            const std::string &message)
+  {
+    seconds.total = earlier_seconds + seconds_since(start_of_run);
+    fill_record();
+    run_record.status  = status;
+    run_record.message = message;
+    run_record.results.clear();
+    // Before the first step nothing has been measured.
+    if (counters.steps > 0)
+      for (const auto &measurement : measurements)
+        measurement->results(run_record.results);
+    write_summary(run_record, folder);
+    terminal.finish(run_record, folder.path());
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Impoint

@@ -1,0 +1,65 @@
+"""What the program does not refuse but warns of."""
+
+import csv
+from pathlib import Path
+
+import driver
+from driver import expect
+
+BAR = Path(__file__).with_name("bad_inputs.prm")
+BAR_3D = Path(__file__).with_name("ranks_bar_3d.prm")
+LOAD = ["Boundaries/Names = clamp, load",
+        "Boundaries/load/Constraint = traction",
+        "Boundaries/load/Traction = 0; -1"]
+
+
+def said_by(scene, settings, ranks=1, check=True):
+    arguments = [word for setting in settings for word in ("--set", setting)]
+    arguments += ["--check"] if check else ["--output", "out", "--overwrite"]
+    process = driver.run([scene, *arguments], ranks)
+    expect(process.returncode == 0, f"{settings}: {process.stderr}")
+    return " ".join(process.stdout.split())
+
+
+def expect_warning(title, text, scene, settings, **keywords):
+    for ranks in (1, 2):
+        said = said_by(scene, settings, ranks, **keywords)
+        expect(text in said, f"{title}, {ranks} ranks: '{text}' not in {said}")
+        expect(said.count("Warning") == 1, f"{title}: {said}")
+    print(f"{title}: warned of")
+
+
+def main():
+    for scene in (BAR, BAR_3D):
+        expect("Warning" not in said_by(scene, []), f"{scene} is all right")
+    expect_warning("a line that ends outside of the grid",
+                   "33 % of boundary 'clamp' lie outside of the grid", BAR,
+                   ["Boundaries/clamp/Polyline = 0 0.625; 0 -0.5"])
+    expect_warning("normals of a fixed wall",
+                   "point into the material. Forces don't depend", BAR,
+                   ["Boundaries/clamp/Polyline = 0 0; 0 0.5"])
+    expect_warning("fewer particles than cut cells",
+                   "'clamp' has 4 particles but cuts 9 cells of the grid",
+                   BAR_3D, ["Boundaries/clamp/Rule = equal"])
+    lost = "50 % of boundary 'load' have no material in their cells"
+    expect_warning("a load beside the material", lost, BAR,
+                   [*LOAD, "Grid/Arguments = 14, 3 : 0, 0 : 3.5, 0.75",
+                    "Boundaries/load/Rule = cut",
+                    "Boundaries/load/Polyline = 2 0; 2 0.5 | 3 0; 3 0.5"],
+                   check=False)
+
+    said = said_by(BAR, ["Time/Step = 0.25", "Linear solver/Kind = iterative",
+                         "Bodies/bar/Body force = 0; -0.01 * t * t",
+                         "Bodies/bar/Material/Model = neo-Hookean"],
+                   check=False)
+    expect("Warning" not in said, said)
+    with open("out/history.csv") as file:
+        rows = list(csv.DictReader(file))
+    counts = driver.json.loads(Path("out/summary.json").read_text())["counts"]
+    total = sum(int(row["linear iterations"]) for row in rows)
+    expect(len(rows) == 4 and total == counts["linear iterations"] > 0,
+           f"{total} iterations in the rows, {counts['linear iterations']}")
+    print("linear iterations in history.csv are those of the step: yes")
+
+
+main()
