@@ -50,7 +50,8 @@ namespace Impoint
       superfluous,
       "Cells whose nodes their constrained neighbours determine: keep or "
       "remove their constraint (L Section 3.2.2). Kept ones make multipliers "
-      "oscillate. automatic: removed by 'lagrange multiplier' only.",
+      "oscillate. automatic: removed by 'lagrange multiplier' in 2D "
+      "only.",
       Patterns::Selection("automatic|keep|remove"));
     prm.add_parameter("Band width",
                       band_width,
@@ -212,9 +213,9 @@ namespace Impoint
     // is changed in one line.
     refuse(conforming || traction, {"Releasing"}, kind);
     refuse(constraint != "slip" || conforming, {"Friction coefficient"}, kind);
-    refuse(enforcement == "implicit boundary",
+    refuse(enforcement != "penalty" && enforcement != "projected penalty",
            {"Releasing", "Friction coefficient"},
-           "an implicit boundary always holds");
+           "'Enforcement' is '" + enforcement + "', which always holds");
     refuse(constraint != "slip" || conforming, {"Normals"}, kind);
     refuse(conforming, {"Moves", "Rotation angle"}, kind);
     refuse(!turns,

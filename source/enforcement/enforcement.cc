@@ -54,13 +54,15 @@ namespace Impoint
 
 
     template <int dim>
-    void Method<dim>::remember_multipliers()
-    {}
+    std::vector<double> Method<dim>::multipliers() const
+    {
+      return {};
+    }
 
 
 
     template <int dim>
-    void Method<dim>::cut_multipliers(const double)
+    void Method<dim>::set_multipliers(const std::vector<double> &)
     {}
 
 

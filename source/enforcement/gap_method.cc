@@ -71,7 +71,7 @@ namespace Impoint
     bool GapMethod<dim>::removes_superfluous() const
     {
       return this->condition.superfluous == "remove" ||
-             (this->condition.superfluous == "automatic" &&
+             (this->condition.superfluous == "automatic" && dim == 2 &&
               this->condition.enforcement == "lagrange multiplier");
     }
 
@@ -111,11 +111,10 @@ namespace Impoint
       if (!this->active_now)
         return;
       frozen = false;
-      before.clear();
       touches.assign(this->boundary->n(), Touch::sticks);
-      multipliers.resize(this->boundary->n());
-      for (unsigned int b = 0; b < multipliers.size(); ++b)
-        multipliers[b] =
+      multiplier.resize(this->boundary->n());
+      for (unsigned int b = 0; b < multiplier.size(); ++b)
+        multiplier[b] =
           this->boundary->vector(b, this->boundary->slots().multiplier);
       if (normal_only)
         normals.reinit(this->condition.normals, *this, *step.active);
@@ -216,7 +215,7 @@ namespace Impoint
       double N[Patch::largest_support];
       shape_values(r, b, nodes.size(), N);
       patch.start_gap += weight * start_gap(b);
-      patch.multiplier += weight * multipliers[b];
+      patch.multiplier += weight * multiplier[b];
       patch.normal +=
         weight * this->boundary->vector(b, this->boundary->slots().normal);
       for (unsigned int a = 0; a < nodes.size(); ++a)
@@ -336,7 +335,7 @@ namespace Impoint
           return;
         const Tensor<1, dim> t = answer(patch, system.u).traction;
         for (unsigned int b = patch.begin; b < patch.end; ++b)
-          multipliers[b] = t;
+          multiplier[b] = t;
         patch.multiplier = t;
         patch.add_force(answer(patch, system.u).traction - t, system);
       });
@@ -345,22 +344,22 @@ namespace Impoint
 
 
     template <int dim>
-    void GapMethod<dim>::remember_multipliers()
+    std::vector<double> GapMethod<dim>::multipliers() const
     {
-      before = multipliers;
+      std::vector<double> values;
+      if (augmented())
+        for (const Tensor<1, dim> &lambda : multiplier)
+          values.insert(values.end(), lambda.begin_raw(), lambda.end_raw());
+      return values;
     }
 
 
 
     template <int dim>
-    void GapMethod<dim>::cut_multipliers(const double fraction)
+    void GapMethod<dim>::set_multipliers(const std::vector<double> &values)
     {
-      if (before.empty())
-        return;
-      if (fraction == 1.)
-        after = multipliers;
-      for (unsigned int b = 0; b < multipliers.size(); ++b)
-        multipliers[b] = before[b] + fraction * (after[b] - before[b]);
+      for (unsigned int i = 0; i < values.size(); ++i)
+        multiplier[i / dim][i % dim] = values[i];
     }
 
 

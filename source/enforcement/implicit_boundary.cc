@@ -81,6 +81,12 @@ namespace Impoint
               state.stress[i][j] += part * stress[Voigt<dim>::position(i, j)];
         }
       state.stress /= volume;
+      double area = 0;
+      for (unsigned int b = this->boundary->ranges()[r].begin;
+           b < this->boundary->ranges()[r].end;
+           ++b)
+        area += this->boundary->area(b);
+      state.filled  = std::min(1., volume * 0.75 * inverse_width(r) / area);
       state.tangent = points.material(range.begin).elastic_tangent();
       return state;
     }
@@ -115,7 +121,8 @@ namespace Impoint
       const Tensor<1, dim> normal  = -outward;
       const Tensor<2, dim> one     = unit_symmetric_tensor<dim>();
       const Tensor<2, dim> across  = outer_product(normal, normal);
-      const Tensor<2, dim> weight  = slip ? one - 0.5 * across : 0.5 * one;
+      const Tensor<2, dim> weight =
+        state.filled * (slip ? one - 0.5 * across : 0.5 * one);
 
       condition.held     = slip ? across : one;
       condition.acoustic = condition.held *
@@ -129,7 +136,7 @@ namespace Impoint
         condition.held * (total + this->displacement(b, n, u) -
                           this->boundary->vector(b, slots.increment));
       condition.traction =
-        condition.held * (0.5 * state.stress * normal) +
+        condition.held * (0.5 * state.filled * state.stress * normal) +
         inverse_width(r) * condition.acoustic * condition.gap;
 
       condition.flux.resize(n);

@@ -32,7 +32,8 @@ namespace Impoint
     {
       const double beta = this->factor(r);
       TractionLaw  law;
-      law.augmented = beta > largest_plain_factor * this->unit(r);
+      law.augmented =
+        this->is_linear() && beta > largest_plain_factor * this->unit(r);
       law.gamma =
         law.augmented ?
           this->enlarge(augmentation_factor * this->unit(r), r, area) :

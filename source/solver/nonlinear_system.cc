@@ -11,6 +11,9 @@ namespace Impoint
 {
   namespace
   {
+    // Multipliers that change less of the forces are found.
+    constexpr double smallest_update = 1e-13;
+
     // Forces below this part of E h^(dim-1) are none.
     constexpr double smallest_force = 1e-13;
 
@@ -46,6 +49,15 @@ namespace Impoint
     , seconds(seconds)
     , assembly(active, points, methods)
     , solver(parameters, counters, active.basis().grid().communicator())
+    , multipliers(assembly,
+                  methods,
+                  [this](const Vector &right, const double looser, Vector &x) {
+                    Vector free(right);
+                    cut(held, false, free);
+                    solver.solve(problem, free, x, looser);
+                    x.update_ghost_values();
+                    cut(held, false, x);
+                  })
   {}
 
 
@@ -326,52 +338,10 @@ namespace Impoint
 
     multiplier_forces.reinit(active.unknowns());
     if (is_augmented())
-      find_multipliers(u, delta);
-  }
-
-
-
-  /**
-   * Makes delta the correction with the multipliers that go with it: the
-   * linear system with multipliers, solved by repeated solutions without them
-   * (the method of multipliers). Each reduces the gap by the factor gamma.
-   */
-  template <int dim>
-  void NonlinearSystem<dim>::find_multipliers(const Vector &u, Vector &delta)
-  {
-    // Gaps that hardly touch a node converge slowly; left after that many
-    // solutions they still have the stiffness gamma.
-    constexpr unsigned int max_solutions = 10;
-    constexpr double       tolerance     = 1e-13;
-
-    for (const auto &method : methods)
-      method->remember_multipliers();
-    const double reference = rest.l2_norm();
-    double       last      = std::numeric_limits<double>::max();
-    Vector       place, change, more;
-    for (unsigned int solution = 0; solution < max_solutions; ++solution)
-      {
-        place = u;
-        place += delta;
-        place.update_ghost_values();
-        assembly.update_multipliers(place, change);
-        multiplier_forces += change;
-        change *= -1.;
-        change.update_ghost_values();
-        cut(held, false, change);
-        const double size = change.l2_norm();
-        if (size <= tolerance * force_scale())
-          return;
-        more.reinit(active.unknowns());
-        solver.solve(problem, change, more, std::max(1., reference / size));
-        more.update_ghost_values();
-        cut(held, false, more);
-        delta += more;
-        delta.update_ghost_values();
-        if (size > 0.5 * last)
-          return; // round-off
-        last = size;
-      }
+      multiplier_forces = multipliers.find(u,
+                                           smallest_update * force_scale(),
+                                           right.l2_norm(),
+                                           delta);
   }
 
 
@@ -379,8 +349,8 @@ namespace Impoint
   template <int dim>
   void NonlinearSystem<dim>::cut_multipliers(const double fraction)
   {
-    for (const auto &method : methods)
-      method->cut_multipliers(fraction);
+    if (is_augmented())
+      multipliers.cut(fraction);
   }
 
 

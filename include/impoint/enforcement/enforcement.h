@@ -104,10 +104,10 @@ namespace Impoint
        * whose residual it adds what that changes. */
       virtual void update_multipliers(const unsigned int r, CellSystem &system);
 
-      /** Before and after a correction that may be cut: goes back to the part
-       * @p fraction of how the multipliers changed in between. */
-      virtual void remember_multipliers();
-      virtual void cut_multipliers(const double fraction);
+      /** The multipliers of the iterate as numbers in an order of the method's
+       * own; none without them. */
+      virtual std::vector<double> multipliers() const;
+      virtual void set_multipliers(const std::vector<double> &values);
 
       /** From now on in this step what touches goes on touching: ends a cycle
        * of the active set. */

@@ -25,17 +25,17 @@ namespace Impoint
     class GapMethod : public Method<dim>
     {
     public:
-      void begin_step(const Step<dim> &step) override;
-      void add(const unsigned int r,
-               const Strength     strength,
-               CellSystem        &system) const override;
-      bool is_linear() const override;
-      bool is_symmetric() const override;
-      bool augmented() const override;
-      void update_multipliers(const unsigned int r,
-                              CellSystem        &system) override;
-      void remember_multipliers() override;
-      void cut_multipliers(const double fraction) override;
+      void                begin_step(const Step<dim> &step) override;
+      void                add(const unsigned int r,
+                              const Strength     strength,
+                              CellSystem        &system) const override;
+      bool                is_linear() const override;
+      bool                is_symmetric() const override;
+      bool                augmented() const override;
+      void                update_multipliers(const unsigned int r,
+                                             CellSystem        &system) override;
+      std::vector<double> multipliers() const override;
+      void set_multipliers(const std::vector<double> &values) override;
       void freeze() override;
       void end_step(const unsigned int r, const double *u) override;
 
@@ -108,9 +108,9 @@ namespace Impoint
       std::vector<char>   left_out; // per range: superfluous
       std::vector<double> distance; // per particle, of a releasing boundary
 
-      // per particle: multipliers of the iterate, before and after the
-      // correction; what the patch that it begins did last
-      std::vector<Tensor<1, dim>> multipliers, before, after;
+      // per particle: multiplier of the iterate; what the patch that it begins
+      // did last
+      std::vector<Tensor<1, dim>> multiplier;
       mutable std::vector<Touch>  touches;
       bool                        frozen = false;
     };

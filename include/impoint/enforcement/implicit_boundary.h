@@ -27,6 +27,9 @@ namespace Impoint
      * material yields, the boundary stays as stiff. The traction at the start
      * of the step enters as the mean of the cell's points. Both only shift the
      * gap, by the order of delta.
+     *
+     * A slice of material thinner than the band has K2 in proportion: the band
+     * goes on in the next cell, and K2 whole would make the matrix indefinite.
      */
     template <int dim>
     class ImplicitBoundary : public Method<dim>
@@ -47,7 +50,8 @@ namespace Impoint
       struct CellState
       {
         VoigtMatrix<dim> tangent = {};
-        Tensor<2, dim>   stress; // at the start of the step
+        Tensor<2, dim>   stress;     // at the start of the step
+        double           filled = 0; // part of the band with material
       };
 
       /** The condition at a particle. */

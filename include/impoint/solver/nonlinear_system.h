@@ -5,6 +5,7 @@
 #include <impoint/enforcement/conforming.h>
 #include <impoint/solver/assembly.h>
 #include <impoint/solver/gathered_solver.h>
+#include <impoint/solver/method_of_multipliers.h>
 
 #include <memory>
 #include <vector>
@@ -128,7 +129,6 @@ namespace Impoint
     double force_scale_of_strain() const;
     void   prescribe(const bool first, Vector &delta);
     void   prepare_solver();
-    void   find_multipliers(const Vector &u, Vector &delta);
 
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;
@@ -139,14 +139,15 @@ namespace Impoint
     Assembly<dim>                           assembly;
     std::vector<Enforcement::HeldNode<dim>> held;
 
-    LinearProblem<dim>  problem;
-    GatheredSolver<dim> solver;
-    bool                new_problem = true; // since the solver last heard
-    bool                new_matrix  = true;
-    Vector              external, rest, full_rest;
-    const Inertia<dim> *inertia    = nullptr;
-    double              scale      = 0; // forces that balance [N]
-    bool                prescribed = false;
+    LinearProblem<dim>       problem;
+    GatheredSolver<dim>      solver;
+    MethodOfMultipliers<dim> multipliers;
+    bool                     new_problem = true; // since the solver last heard
+    bool                     new_matrix  = true;
+    Vector                   external, rest, full_rest;
+    const Inertia<dim>      *inertia    = nullptr;
+    double                   scale      = 0; // forces that balance [N]
+    bool                     prescribed = false;
     Vector multiplier_forces; // what new multipliers changed in the residual
   };
 } // namespace Impoint

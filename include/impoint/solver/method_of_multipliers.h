@@ -1,0 +1,74 @@
+#ifndef impoint_solver_method_of_multipliers_h
+#define impoint_solver_method_of_multipliers_h
+
+#include <impoint/solver/assembly.h>
+
+#include <functional>
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * Finds the multipliers of boundaries that go with a linear correction of the
+   * displacements: the saddle-point problem, by solutions with the augmented
+   * matrix alone (numerical multipliers lambda <- t of TractionLaw).
+   *
+   * One such update reduces the gap by the factor gamma, but for combinations
+   * of constraints that hardly differ. So the updates are directions of a
+   * generalised conjugate residual method: as many solutions as there are
+   * combinations of that kind, and a few.
+   */
+  template <int dim>
+  class MethodOfMultipliers
+  {
+  public:
+    using Vector = typename Assembly<dim>::Vector;
+
+    /** x = A^-1 b, with the tolerance multiplied by the number. */
+    using Solve = std::function<void(const Vector &, const double, Vector &)>;
+
+    MethodOfMultipliers(Assembly<dim>             &assembly,
+                        Enforcement::Methods<dim> &methods,
+                        const Solve               &solve);
+
+    /**
+     * Improves @p delta, the correction at @p u with the present multipliers,
+     * and these, until a further update changes the residual by less than
+     * @p smallest [N]. @p reference [N] is the right-hand side of delta.
+     * Returns what the new multipliers changed in the residual. Collective.
+     */
+    Vector find(const Vector &u,
+                const double  smallest,
+                const double  reference,
+                Vector       &delta);
+
+    /** Goes back to the part @p fraction of what the last find() changed. */
+    void cut(const double fraction);
+
+  private:
+    using Multipliers = std::vector<std::vector<double>>; // per method
+
+    /** A change of the multipliers and what it brings. */
+    struct Direction
+    {
+      Multipliers multipliers;
+      Vector      forces, displacements;
+      Multipliers update; // change of what an update would add
+      Vector      effect; // forces of that
+    };
+
+    /** What an update adds to the present multipliers, which stay, and its
+     * forces. */
+    Multipliers update(const Vector &place, Vector &forces);
+
+    Multipliers get() const;
+    void        set(const Multipliers &values);
+
+    Assembly<dim>             &assembly;
+    Enforcement::Methods<dim> &methods;
+    const Solve                solve;
+    Multipliers                before, after;
+  };
+} // namespace Impoint
+
+#endif
