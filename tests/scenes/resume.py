@@ -31,6 +31,7 @@ BLOCK = [HERE / "ranks_falling_block.prm",
          "--set", "Measurements/E/Quantity = energy",
          "--set", "Measurements/newton/Quantity = newton"]
 BAR = [HERE / "ranks_bar_3d.prm", "--set", "Time/Step = 0.1",
+       "--set", "Bodies/bar/Body force = 0; t; -5 * t",
        "--set", "Output/Checkpoint every = 1"]
 MULTIPLIERS = [*BAR, "--set",
                "Boundaries/clamp/Enforcement = lagrange multiplier"]
