@@ -295,7 +295,7 @@ namespace Impoint
   void Simulation<dim>::find_new_places()
   {
     ScopedSeconds timer(seconds.locate);
-    const auto    places = new_places(*points, active, u);
+    new_places(*points, active, u, places);
     points->find(places);
 
     std::vector<double> cell_u;

@@ -107,6 +107,7 @@ namespace Impoint
     std::chrono::steady_clock::time_point         last_checkpoint;
     double                                        earlier_seconds = 0;
     Vector                                        u;
+    std::vector<Point<dim>>                       places; // of the points
     std::vector<std::vector<Point<dim>>>          boundary_places; // per method
     std::vector<Measurements::BoundaryForce<dim>> forces;
     RunRecord                                     run_record;

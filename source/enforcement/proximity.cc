@@ -162,6 +162,10 @@ namespace Impoint
                         const std::vector<Point<dim>>              &new_places,
                         const std::vector<std::vector<Point<dim>>> &wall_places)
     {
+      if (std::none_of(methods.begin(), methods.end(), [](const auto &method) {
+            return method->is_active() && method->constrains();
+          }))
+        return;
       const auto    &grid    = active.basis().grid();
       const MPI_Comm comm    = grid.communicator();
       const double   h       = grid.smallest_size();

@@ -12,6 +12,7 @@ namespace Impoint
   template <int dim>
   ActiveNodes<dim>::ActiveNodes(const Basis<dim> &basis)
     : functions(basis)
+    , marks(basis.n_nodes())
     , positions(basis.grid().n_cells(), BackgroundGrid<dim>::nowhere)
     , compact_of(basis.n_nodes(), BackgroundGrid<dim>::nowhere)
   {}
@@ -41,21 +42,6 @@ namespace Impoint
   {
     using Indices = std::vector<types::global_dof_index>;
 
-    /** Nodes of cells, each once, increasing. */
-    template <int dim>
-    std::vector<unsigned int>
-    nodes_of_cells(const Basis<dim>                &basis,
-                   const std::vector<unsigned int> &cells)
-    {
-      std::vector<unsigned int> nodes;
-      for (const unsigned int c : cells)
-        for (const unsigned int node : basis.nodes(c))
-          nodes.push_back(node);
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      return nodes;
-    }
-
     /** Those of @p nodes that other ranks own, as global indices by rank. */
     template <int dim>
     std::map<unsigned int, Indices>
@@ -74,40 +60,38 @@ namespace Impoint
 
 
 
-  /** For each of the nodes @p wanted: whether any rank has it in @p marked. */
   template <int dim>
-  std::vector<char>
-  ActiveNodes<dim>::shared_marks(const std::vector<unsigned int> &marked,
-                                 const std::vector<unsigned int> &wanted) const
+  void
+  ActiveNodes<dim>::mark_nodes_of(const std::vector<unsigned int> &of_cells)
   {
-    const MPI_Comm    comm = functions.grid().communicator();
-    std::vector<char> mark(functions.n_nodes(), false);
-    for (const unsigned int node : marked)
-      mark[node] = true;
-    if (Utilities::MPI::n_mpi_processes(comm) > 1)
-      {
-        const auto reported =
-          Utilities::MPI::some_to_some(comm,
-                                       by_foreign_owner(functions, marked));
-        for (const auto &message : reported)
-          for (const auto index : message.second)
-            mark[functions.node_of(index)] = true;
+    for (const unsigned int c : of_cells)
+      for (const unsigned int node : functions.nodes(c))
+        marks.insert(node);
+  }
 
-        const auto questions = by_foreign_owner(functions, wanted);
-        const auto asked     = Utilities::MPI::some_to_some(comm, questions);
-        std::map<unsigned int, std::vector<char>> answers;
-        for (const auto &message : asked)
-          for (const auto index : message.second)
-            answers[message.first].push_back(mark[functions.node_of(index)]);
-        for (const auto &answer : Utilities::MPI::some_to_some(comm, answers))
-          for (unsigned int i = 0; i < answer.second.size(); ++i)
-            mark[functions.node_of(questions.at(answer.first)[i])] =
-              answer.second[i];
-      }
-    std::vector<char> result;
-    for (const unsigned int node : wanted)
-      result.push_back(mark[node]);
-    return result;
+
+
+  /** Marks those of the nodes @p wanted that any other rank has marked. */
+  template <int dim>
+  void ActiveNodes<dim>::share_marks(const std::vector<unsigned int> &wanted)
+  {
+    const MPI_Comm comm     = functions.grid().communicator();
+    const auto     reported = Utilities::MPI::some_to_some(
+      comm, by_foreign_owner(functions, marks.members()));
+    for (const auto &message : reported)
+      for (const auto index : message.second)
+        marks.insert(functions.node_of(index));
+
+    const auto questions = by_foreign_owner(functions, wanted);
+    std::map<unsigned int, std::vector<char>> answers;
+    for (const auto &message : Utilities::MPI::some_to_some(comm, questions))
+      for (const auto index : message.second)
+        answers[message.first].push_back(
+          marks.contains(functions.node_of(index)));
+    for (const auto &answer : Utilities::MPI::some_to_some(comm, answers))
+      for (unsigned int i = 0; i < answer.second.size(); ++i)
+        if (answer.second[i])
+          marks.insert(functions.node_of(questions.at(answer.first)[i]));
   }
 
 
@@ -127,19 +111,34 @@ namespace Impoint
     for (unsigned int k = 0; k < n_material; ++k)
       positions[cells[k]] = k;
 
-    const auto material_nodes = nodes_of_cells(functions, material_cells);
-    const auto wanted         = nodes_of_cells(functions, boundary_cells);
-    const auto marks          = shared_marks(material_nodes, wanted);
+    std::vector<unsigned int> without_material, wanted;
     for (const unsigned int c : boundary_cells)
       if (positions[c] == BackgroundGrid<dim>::nowhere)
-        for (const unsigned int node : functions.nodes(c))
-          if (marks[std::lower_bound(wanted.begin(), wanted.end(), node) -
-                    wanted.begin()])
-            {
-              positions[c] = cells.size();
-              cells.push_back(c);
-              break;
-            }
+        without_material.push_back(c);
+    if (Utilities::MPI::n_mpi_processes(functions.grid().communicator()) > 1)
+      {
+        mark_nodes_of(without_material);
+        wanted = marks.members();
+        marks.clear();
+        mark_nodes_of(material_cells);
+        share_marks(wanted);
+      }
+    else if (!without_material.empty())
+      mark_nodes_of(material_cells);
+    for (const unsigned int c : without_material)
+      {
+        const auto nodes = functions.nodes(c);
+        if (std::any_of(nodes.begin(),
+                        nodes.end(),
+                        [&](const unsigned int node) {
+                          return marks.contains(node);
+                        }))
+          {
+            positions[c] = cells.size();
+            cells.push_back(c);
+          }
+      }
+    marks.clear();
   }
 
 
@@ -150,22 +149,21 @@ namespace Impoint
     const MPI_Comm     comm = functions.grid().communicator();
     const unsigned int me   = Utilities::MPI::this_mpi_process(comm);
 
-    std::vector<unsigned int> active    = nodes_of_cells(functions, cells);
-    const auto                questions = by_foreign_owner(functions, active);
+    mark_nodes_of(cells);
+    const std::vector<unsigned int> active = marks.members();
+    const auto questions = by_foreign_owner(functions, active);
     std::map<unsigned int, Indices> asked;
     if (Utilities::MPI::n_mpi_processes(comm) > 1)
       asked = Utilities::MPI::some_to_some(comm, questions);
-
-    std::vector<unsigned int> owned;
-    for (const unsigned int node : active)
-      if (functions.owner(node) == me)
-        owned.push_back(node);
     for (const auto &question : asked)
       for (const auto index : question.second)
-        owned.push_back(functions.node_of(index));
-    std::sort(owned.begin(), owned.end());
-    owned.erase(std::unique(owned.begin(), owned.end()), owned.end());
-    n_owned = owned.size();
+        marks.insert(functions.node_of(index));
+    grid_nodes.clear();
+    for (const unsigned int node : marks.members())
+      if (functions.owner(node) == me)
+        grid_nodes.push_back(node);
+    marks.clear();
+    n_owned = grid_nodes.size();
 
     const types::global_dof_index total =
       Utilities::MPI::sum(types::global_dof_index(n_owned), comm);
@@ -174,9 +172,10 @@ namespace Impoint
       std::accumulate(counts.begin(),
                       counts.begin() + me,
                       types::global_dof_index(0));
-    grid_nodes = owned;
+    global_numbers.resize(n_owned);
+    std::iota(global_numbers.begin(), global_numbers.end(), first);
     for (unsigned int i = 0; i < n_owned; ++i)
-      compact_of[owned[i]] = i;
+      compact_of[grid_nodes[i]] = i;
 
     std::map<unsigned int, Indices> answers;
     for (const auto &question : asked)
@@ -190,21 +189,12 @@ namespace Impoint
           ghosts.emplace_back(answer.second[i],
                               functions.node_of(questions.at(answer.first)[i]));
     std::sort(ghosts.begin(), ghosts.end());
-
-    global_numbers.clear();
-    for (unsigned int i = 0; i < n_owned; ++i)
-      global_numbers.push_back(first + i);
     for (const auto &ghost : ghosts)
       {
         compact_of[ghost.second] = grid_nodes.size();
         grid_nodes.push_back(ghost.second);
         global_numbers.push_back(ghost.first);
       }
-
-    with_material =
-      shared_marks(nodes_of_cells(functions,
-                                  {cells.begin(), cells.begin() + n_material}),
-                   grid_nodes);
 
     for (const unsigned int block : {1, dim})
       {
@@ -221,66 +211,84 @@ namespace Impoint
 
 
   template <int dim>
-  void ActiveNodes<dim>::build_pattern()
+  void ActiveNodes<dim>::list_cells_of_nodes()
   {
     first_node.assign(1, 0);
     first_block.assign(1, 0);
     cell_nodes.clear();
-    std::vector<std::size_t> first_cell(n_nodes() + 1, 0); // of a node
+    first_visit.assign(n_nodes() + 1, 0);
     for (const unsigned int c : cells)
       {
         const unsigned int n = functions.n_nodes_of(c);
         for (const unsigned int node : functions.nodes(c))
           {
             cell_nodes.push_back(compact_of[node]);
-            ++first_cell[compact_of[node] + 1];
+            ++first_visit[cell_nodes.back() + 1];
           }
         first_node.push_back(cell_nodes.size());
         first_block.push_back(first_block.back() + n * n);
       }
-    for (unsigned int i = 0; i < n_nodes(); ++i)
-      first_cell[i + 1] += first_cell[i];
-    std::vector<unsigned int> cells_of(cell_nodes.size());
-    std::vector<std::size_t>  next(first_cell.begin(), first_cell.end() - 1);
+    std::partial_sum(first_visit.begin(),
+                     first_visit.end(),
+                     first_visit.begin());
+    visits.resize(cell_nodes.size());
+    std::vector<std::size_t> next(first_visit.begin(), first_visit.end() - 1);
     for (unsigned int k = 0; k < cells.size(); ++k)
-      for (const unsigned int i : nodes(k))
-        cells_of[next[i]++] = k;
+      for (unsigned int b = 0; b < nodes(k).size(); ++b)
+        visits[next[nodes(k)[b]]++] = {k, b};
+  }
 
-    // A row is finished before the next begins, so one marker array serves
-    // both to find its columns and to place the blocks of its cells.
-    auto &columns = block_pattern.columns;
-    columns.clear();
-    block_pattern.row_start.assign(1, 0);
-    scatter_map.resize(first_block.back());
-    std::vector<unsigned int> place(n_nodes(), BackgroundGrid<dim>::nowhere);
+
+
+  /** Goes over the columns in their order, so that those of each row come
+   * sorted, and once before to count them: the pattern is symmetric. */
+  template <int dim>
+  void ActiveNodes<dim>::build_pattern()
+  {
+    list_cells_of_nodes();
+    auto &row_start = block_pattern.row_start;
+    auto &columns   = block_pattern.columns;
+    row_start.assign(n_nodes() + 1, 0);
+    std::vector<unsigned int> last(n_nodes(), BackgroundGrid<dim>::nowhere);
     for (unsigned int i = 0; i < n_nodes(); ++i)
       {
-        const std::size_t begin = columns.size();
-        place[i]                = 0;
-        columns.push_back(i);
-        for (std::size_t q = first_cell[i]; q < first_cell[i + 1]; ++q)
-          for (const unsigned int j : nodes(cells_of[q]))
-            if (place[j] == BackgroundGrid<dim>::nowhere)
+        last[i]            = i;
+        std::size_t length = 1;
+        for (std::size_t v = first_visit[i]; v < first_visit[i + 1]; ++v)
+          for (const unsigned int j : nodes(visits[v].cell))
+            if (last[j] != i)
               {
-                place[j] = 0;
-                columns.push_back(j);
+                last[j] = i;
+                ++length;
               }
-        std::sort(columns.begin() + begin, columns.end());
-        for (std::size_t q = begin; q < columns.size(); ++q)
-          place[columns[q]] = q;
-        for (std::size_t q = first_cell[i]; q < first_cell[i + 1]; ++q)
+        row_start[i + 1] = row_start[i] + length;
+      }
+
+    columns.resize(row_start.back());
+    scatter_map.resize(first_block.back());
+    std::vector<std::size_t>  next(row_start.begin(), row_start.end() - 1);
+    std::vector<unsigned int> place(n_nodes());
+    std::fill(last.begin(), last.end(), BackgroundGrid<dim>::nowhere);
+    const auto couple = [&](const unsigned int i, const unsigned int j) {
+      if (last[i] == j)
+        return;
+      last[i]           = j;
+      place[i]          = next[i]++;
+      columns[place[i]] = j;
+    };
+    for (unsigned int j = 0; j < n_nodes(); ++j)
+      {
+        couple(j, j);
+        for (std::size_t v = first_visit[j]; v < first_visit[j + 1]; ++v)
           {
-            const unsigned int k       = cells_of[q];
-            const auto         in_cell = nodes(k);
-            const unsigned int n       = in_cell.size();
-            for (unsigned int a = 0; a < n; ++a)
-              if (in_cell[a] == i)
-                for (unsigned int b = 0; b < n; ++b)
-                  scatter_map[first_block[k] + a * n + b] = place[in_cell[b]];
+            const auto    in_cell = nodes(visits[v].cell);
+            unsigned int *to = scatter_map.data() + first_block[visits[v].cell];
+            for (unsigned int a = 0; a < in_cell.size(); ++a)
+              {
+                couple(in_cell[a], j);
+                to[a * in_cell.size() + visits[v].node] = place[in_cell[a]];
+              }
           }
-        for (std::size_t q = begin; q < columns.size(); ++q)
-          place[columns[q]] = BackgroundGrid<dim>::nowhere;
-        block_pattern.row_start.push_back(columns.size());
       }
   }
 

@@ -7,12 +7,11 @@
 namespace Impoint
 {
   template <int dim>
-  Point<dim> BackgroundGrid<dim>::to_reference(const unsigned int c,
-                                               const Point<dim>  &x) const
+  Point<dim>
+  BackgroundGrid<dim>::to_reference_curved(const unsigned int c,
+                                           const Point<dim>  &x,
+                                           const Point<dim>  &linear) const
   {
-    const Point<dim> linear(inverse_jacobian[c] * (x - corner[c]));
-    if (affine[c])
-      return linear;
     try
       {
         return map->transform_real_to_unit_cell(iterators[c], x);
@@ -23,23 +22,6 @@ namespace Impoint
         // first corner still tells which face to leave through.
         return linear;
       }
-  }
-
-
-
-  template <int dim>
-  double BackgroundGrid<dim>::outside_by(const Point<dim> &xi) const
-  {
-    double worst = std::numeric_limits<double>::lowest();
-    double sum   = 0;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        worst = std::max(worst, -xi[d]);
-        if (!is_simplicial)
-          worst = std::max(worst, xi[d] - 1);
-        sum += xi[d];
-      }
-    return is_simplicial ? std::max(worst, sum - 1) : worst;
   }
 
 
@@ -160,12 +142,14 @@ namespace Impoint
     return nowhere;
   }
 
-  template Point<2>     BackgroundGrid<2>::to_reference(const unsigned int,
-                                                    const Point<2> &) const;
-  template Point<3>     BackgroundGrid<3>::to_reference(const unsigned int,
-                                                    const Point<3> &) const;
-  template double       BackgroundGrid<2>::outside_by(const Point<2> &) const;
-  template double       BackgroundGrid<3>::outside_by(const Point<3> &) const;
+  template Point<2>
+  BackgroundGrid<2>::to_reference_curved(const unsigned int,
+                                         const Point<2> &,
+                                         const Point<2> &) const;
+  template Point<3>
+  BackgroundGrid<3>::to_reference_curved(const unsigned int,
+                                         const Point<3> &,
+                                         const Point<3> &) const;
   template unsigned int BackgroundGrid<2>::walk(const Point<2> &,
                                                 const unsigned int,
                                                 Point<2> &) const;

@@ -1,4 +1,5 @@
 #include <impoint/grid/finite_elements.h>
+#include <impoint/grid/linear_functions.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -190,47 +191,6 @@ namespace Impoint
 
 
   template <int dim>
-  void FiniteElements<dim>::linear_functions(const Point<dim> &xi,
-                                             double           *values,
-                                             double           *gradients) const
-  {
-    if (this->grid.simplicial())
-      {
-        values[0] = 1.;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            values[0] -= xi[d];
-            values[d + 1] = xi[d];
-            gradients[d]  = -1.;
-            for (unsigned int e = 0; e < dim; ++e)
-              gradients[(d + 1) * dim + e] = (d == e);
-          }
-        return;
-      }
-    for (unsigned int v = 0; v < (1 << dim); ++v)
-      {
-        double factor[dim], slope[dim];
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const bool upper = (v >> d) & 1;
-            factor[d]        = upper ? xi[d] : 1. - xi[d];
-            slope[d]         = upper ? 1. : -1.;
-          }
-        values[v] = factor[0] * factor[1] * (dim == 3 ? factor[dim - 1] : 1.);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            double product = slope[d];
-            for (unsigned int e = 0; e < dim; ++e)
-              if (e != d)
-                product *= factor[e];
-            gradients[v * dim + d] = product;
-          }
-      }
-  }
-
-
-
-  template <int dim>
   void FiniteElements<dim>::quadratic_tensor_functions(const Point<dim> &xi,
                                                        double           *values,
                                                        double *gradients) const
@@ -269,7 +229,7 @@ namespace Impoint
                                                         double *gradients) const
   {
     double lambda[dim + 1], slope[dim + 1][dim];
-    linear_functions(xi, lambda, &slope[0][0]);
+    linear_functions<dim, true>(xi, lambda, &slope[0][0]);
     for (unsigned int v = 0; v < n_functions; ++v)
       {
         const unsigned int i = ends[v][0], j = ends[v][1];
@@ -291,8 +251,10 @@ namespace Impoint
                                                 double           *values,
                                                 double *gradients) const
   {
-    if (degree == 1)
-      linear_functions(xi, values, gradients);
+    if (degree == 1 && this->grid.simplicial())
+      linear_functions<dim, true>(xi, values, gradients);
+    else if (degree == 1)
+      linear_functions<dim, false>(xi, values, gradients);
     else if (this->grid.simplicial())
       quadratic_simplex_functions(xi, values, gradients);
     else
@@ -362,6 +324,23 @@ namespace Impoint
           for (unsigned int d = 0; d < dim; ++d)
             support[n + a * dim + d] += weight * gradients[v * dim + d];
         }
+  }
+
+
+
+  template <int dim>
+  void FiniteElements<dim>::evaluate_all(const unsigned int                 c,
+                                         const ArrayView<const Point<dim>> &xi,
+                                         double *supports) const
+  {
+    if (degree > 1 || !this->grid.is_affine(c) ||
+        hanging_index[c] != BackgroundGrid<dim>::nowhere)
+      return CellFunctions<dim>::evaluate_all(c, xi, supports);
+    const Tensor<2, dim> &inverse = this->grid.inverse_jacobian_of(c);
+    if (this->grid.simplicial())
+      linear_supports<dim, true>(inverse, xi, supports);
+    else
+      linear_supports<dim, false>(inverse, xi, supports);
   }
 
 

@@ -29,27 +29,37 @@ namespace Impoint
 
 
 
-      /** Strain energy of point @p p as it stands. */
+      /** Strain energy of points as they stand. */
       template <int dim>
-      double strain_energy_of(const MaterialPoints<dim> &points,
-                              const unsigned int         p)
+      class StrainEnergy
       {
-        const double *state = points.data(p);
-        const auto   &slots = points.slots();
+      public:
+        explicit StrainEnergy(const MaterialPoints<dim> &points)
+          : points(points)
+          , slots(points.slots())
+        {}
 
-        Materials::Deformation<dim> deformation;
-        Materials::Response<dim>    response;
-        deformation.F = points.deformation_gradient(p);
-        for (int k = 0; k < Voigt<dim>::n; ++k)
-          response.stress[k] = state[slots.stress + k];
-        if constexpr (dim == 2)
-          response.stress_zz = state[slots.stress + Voigt<dim>::n];
-        double density = points.material(p).energy(deformation, response);
-        if (points.carried().initial_stress &&
-            !points.material(p).starts_from_stress())
-          density += initial_stress_energy(points, p);
-        return state[slots.volume] * density;
-      }
+        double operator()(const unsigned int p)
+        {
+          const double *state = points.data(p);
+          deformation.F       = points.deformation_gradient(p);
+          for (int k = 0; k < Voigt<dim>::n; ++k)
+            response.stress[k] = state[slots.stress + k];
+          if constexpr (dim == 2)
+            response.stress_zz = state[slots.stress + Voigt<dim>::n];
+          double density = points.material(p).energy(deformation, response);
+          if (points.carried().initial_stress &&
+              !points.material(p).starts_from_stress())
+            density += initial_stress_energy(points, p);
+          return state[slots.volume] * density;
+        }
+
+      private:
+        const MaterialPoints<dim>                 &points;
+        const typename MaterialPoints<dim>::Slots &slots;
+        Materials::Deformation<dim>                deformation;
+        Materials::Response<dim>                   response;
+      };
 
 
 
@@ -97,16 +107,18 @@ namespace Impoint
     Totals<dim> totals(const MaterialPoints<dim> &points,
                        const MPI_Comm             communicator)
     {
-      const auto &slots = points.slots();
-      Totals<dim> sums;
+      const auto       &slots   = points.slots();
+      const bool        dynamic = points.carried().dynamic;
+      Totals<dim>       sums;
+      StrainEnergy<dim> strain_energy(points);
       for (unsigned int p = 0; p < points.n(); ++p)
         {
           const double         mass = points.data(p)[slots.mass];
           const Tensor<1, dim> place(points.position(p));
           sums.mass += mass;
           sums.centre += mass * place;
-          sums.strain_energy += strain_energy_of(points, p);
-          if (!points.carried().dynamic)
+          sums.strain_energy += strain_energy(p);
+          if (!dynamic)
             continue;
           const Tensor<1, dim> velocity = points.vector(p, slots.v);
           sums.momentum += mass * velocity;

@@ -3,39 +3,33 @@
 #include <impoint/particles/point_cloud.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/particles/particle_handler.h>
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 #include <sstream>
+#include <tuple>
 
 namespace Impoint
 {
-  template <int dim>
-  struct PointCloud<dim>::Handler
-  {
-    Handler(const BackgroundGrid<dim> &grid, const unsigned int n_properties)
-      : particles(grid.triangulation(), grid.mapping(), n_properties)
-    {}
-
-    Particles::ParticleHandler<dim> particles;
-  };
-
-
-
   template <int dim>
   PointCloud<dim>::PointCloud(const Basis<dim>     &basis,
                               const PropertyLayout &layout)
     : basis(basis)
     , property_layout(layout)
-    , reference_slot(property_layout.add("reference place", dim))
-    , handler(
-        std::make_unique<Handler>(basis.grid(), property_layout.n_doubles()))
+    , pool(std::make_unique<Pool>(property_layout.n_doubles()))
   {}
 
 
 
   template <int dim>
-  PointCloud<dim>::~PointCloud() = default;
+  PointCloud<dim>::~PointCloud()
+  {
+    // The pool insists on it.
+    if (pool)
+      for (auto handle : handles)
+        pool->deregister_particle(handle);
+  }
 
 
 
@@ -45,17 +39,10 @@ namespace Impoint
 
 
   template <int dim>
-  types::particle_index PointCloud<dim>::n_global() const
-  {
-    return handler->particles.n_global_particles();
-  }
-
-
-
-  template <int dim>
   std::vector<unsigned int> PointCloud<dim>::cells() const
   {
     std::vector<unsigned int> result;
+    result.reserve(cell_ranges.size());
     for (const Range &range : cell_ranges)
       result.push_back(range.cell);
     return result;
@@ -66,87 +53,122 @@ namespace Impoint
   template <int dim>
   void PointCloud<dim>::insert(const std::vector<NewParticle> &particles)
   {
-    put_in(particles);
-    handler->particles.update_cached_numbers();
-    std::vector<unsigned int> occupied = cells();
-    for (const NewParticle &particle : particles)
-      occupied.push_back(particle.cell);
-    list(std::move(occupied));
+    std::vector<Arrival> arrivals;
+    pool->reserve(n() + particles.size());
+    take_in(particles, arrivals);
+    list(std::move(arrivals));
+    n_of_all_ranks = Utilities::MPI::sum(types::particle_index(n()),
+                                         basis.grid().communicator());
     evaluate_supports();
   }
 
 
 
+  /** Puts the particles' state into the pool. */
   template <int dim>
-  void PointCloud<dim>::put_in(const std::vector<NewParticle> &particles)
+  void PointCloud<dim>::take_in(const std::vector<NewParticle> &particles,
+                                std::vector<Arrival>           &arrivals)
   {
-    std::vector<double> properties(property_layout.n_doubles());
     for (const NewParticle &particle : particles)
       {
+        Assert(basis.grid().is_owned(particle.cell), ExcInternalError());
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = particle.properties[d];
+        const auto handle = pool->register_particle();
+        pool->set_id(handle, particle.id);
         std::copy(particle.properties.begin(),
                   particle.properties.end(),
-                  properties.begin());
-        put_in(particle.cell, particle.id, properties.data());
+                  pool->get_properties(handle).begin());
+        arrivals.push_back({particle.cell,
+                            particle.id,
+                            handle,
+                            basis.grid().to_reference(particle.cell, x)});
       }
   }
 
 
 
+  /** Renews the lists: without the particles in moves, with the arrivals. */
   template <int dim>
-  void PointCloud<dim>::put_in(const unsigned int          cell,
-                               const types::particle_index id,
-                               double                     *properties)
+  void PointCloud<dim>::list(std::vector<Arrival> arrivals)
   {
-    Assert(basis.grid().is_owned(cell), ExcInternalError());
-    Point<dim> x;
-    for (unsigned int d = 0; d < dim; ++d)
-      x[d] = properties[d];
-    const Point<dim> xi = basis.grid().to_reference(cell, x);
-    for (unsigned int d = 0; d < dim; ++d)
-      properties[reference_slot + d] = xi[d];
-    handler->particles.insert_particle(
-      x,
-      xi,
-      id,
-      basis.grid().cell(cell),
-      ArrayView<const double>(properties, property_layout.n_doubles()));
-  }
+    std::sort(arrivals.begin(),
+              arrivals.end(),
+              [](const Arrival &a, const Arrival &b) {
+                return std::tie(a.cell, a.id) < std::tie(b.cell, b.id);
+              });
+    std::vector<Range>                 old_ranges;
+    std::vector<typename Pool::Handle> old_handles;
+    std::vector<Point<dim>>            old_references;
+    old_ranges.swap(cell_ranges);
+    old_handles.swap(handles);
+    old_references.swap(references);
+    handles.reserve(old_handles.size() + arrivals.size());
+    references.reserve(old_handles.size() + arrivals.size());
 
-
-
-  template <int dim>
-  void PointCloud<dim>::list(std::vector<unsigned int> occupied_cells)
-  {
-    std::sort(occupied_cells.begin(), occupied_cells.end());
-    occupied_cells.erase(std::unique(occupied_cells.begin(),
-                                     occupied_cells.end()),
-                         occupied_cells.end());
-    cell_ranges.clear();
-    states.clear();
-    ids.clear();
-    references.clear();
-    for (const unsigned int c : occupied_cells)
+    auto       move        = moves.cbegin();
+    auto       arrival     = arrivals.cbegin();
+    const auto append_next = [&]() {
+      append(arrival->cell, arrival->handle, arrival->reference);
+      ++arrival;
+    };
+    for (const Range &range : old_ranges)
       {
-        const unsigned int begin = states.size();
-        for (auto &particle :
-             handler->particles.particles_in_cell(basis.grid().cell(c)))
+        while (arrival != arrivals.cend() && arrival->cell < range.cell)
+          append_next();
+        for (unsigned int p = range.begin; p < range.end; ++p)
           {
-            states.push_back(particle.get_properties().data());
-            ids.push_back(particle.get_id());
-            Point<dim> x, xi;
-            for (unsigned int d = 0; d < dim; ++d)
+            if (move != moves.cend() && move->particle == p)
               {
-                x[d]  = states.back()[d];
-                xi[d] = states.back()[reference_slot + d];
+                ++move;
+                continue;
               }
-            references.push_back(xi);
-            particle.set_location(x);
-            particle.set_reference_location(xi);
+            while (arrival != arrivals.cend() && arrival->cell == range.cell &&
+                   arrival->id < pool->get_id(old_handles[p]))
+              append_next();
+            append(range.cell, old_handles[p], old_references[p]);
           }
-        if (states.size() > begin)
-          cell_ranges.push_back(
-            {c, begin, static_cast<unsigned int>(states.size())});
       }
+    while (arrival != arrivals.cend())
+      append_next();
+    place_states(arrivals.size());
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::append(const unsigned int          cell,
+                               const typename Pool::Handle handle,
+                               const Point<dim>           &reference)
+  {
+    if (cell_ranges.empty() || cell_ranges.back().cell != cell)
+      cell_ranges.push_back({cell,
+                             static_cast<unsigned int>(handles.size()),
+                             static_cast<unsigned int>(handles.size())});
+    handles.push_back(handle);
+    references.push_back(reference);
+    ++cell_ranges.back().end;
+  }
+
+
+
+  /** Finds the states in the pool after @p n_new particles came in. */
+  template <int dim>
+  void PointCloud<dim>::place_states(const std::size_t n_new)
+  {
+    // Neighbours in the grid should be so in memory, too; but it costs as much
+    // as an assembly to sort all.
+    n_unsorted += n_new;
+    if (4 * n_unsorted > handles.size())
+      {
+        pool->sort_memory_slots(handles);
+        std::iota(handles.begin(), handles.end(), 0);
+        n_unsorted = 0;
+      }
+    states.resize(handles.size());
+    for (std::size_t p = 0; p < handles.size(); ++p)
+      states[p] = pool->get_properties(handles[p]).data();
   }
 
 
@@ -157,17 +179,18 @@ namespace Impoint
     first_support.resize(n());
     std::size_t size = 0;
     for (const Range &range : cell_ranges)
-      for (unsigned int p = range.begin; p < range.end; ++p)
-        {
+      {
+        const unsigned int one = basis.support_size(range.cell);
+        for (unsigned int p = range.begin; p < range.end; ++p, size += one)
           first_support[p] = size;
-          size += basis.support_size(range.cell);
-        }
+      }
     supports.resize(size);
     for (const Range &range : cell_ranges)
-      for (unsigned int p = range.begin; p < range.end; ++p)
-        basis.evaluate(range.cell,
-                       references[p],
-                       supports.data() + first_support[p]);
+      basis.evaluate(range.cell,
+                     ArrayView<const Point<dim>>(references.data() +
+                                                   range.begin,
+                                                 range.end - range.begin),
+                     supports.data() + first_support[range.begin]);
   }
 
 
@@ -178,7 +201,6 @@ namespace Impoint
     const BackgroundGrid<dim> &grid = basis.grid();
     std::vector<unsigned int>  strays;
     moves.clear();
-    references.resize(n());
     const unsigned int me =
       Utilities::MPI::this_mpi_process(grid.communicator());
     for (const Range &range : cell_ranges)
@@ -241,7 +263,7 @@ namespace Impoint
           if (rank == answered.size())
             {
               std::ostringstream message;
-              message << "point " << ids[strays[i]] << " left the grid at ("
+              message << "point " << id(strays[i]) << " left the grid at ("
                       << places[i]
                       << "). Enlarge the grid there, or hold the body";
               throw StepFailed(message.str());
@@ -257,33 +279,17 @@ namespace Impoint
   bool PointCloud<dim>::move()
   {
     const MPI_Comm comm = basis.grid().communicator();
-    for (unsigned int p = 0; p < n(); ++p)
-      for (unsigned int d = 0; d < dim; ++d)
-        states[p][reference_slot + d] = references[p][d];
-
-    const bool changed =
+    const bool     changed =
       Utilities::MPI::max(static_cast<unsigned int>(moves.size()), comm) > 0;
     if (changed)
       {
-        const types::particle_index                      n_before = n_global();
-        std::map<unsigned int, std::vector<NewParticle>> for_others;
-        std::vector<unsigned int>                        occupied = cells();
-        change_cells(for_others, occupied);
-        if (Utilities::MPI::n_mpi_processes(comm) > 1)
-          for (const auto &message :
-               Utilities::MPI::some_to_some(comm, for_others))
-            {
-              put_in(message.second);
-              for (const NewParticle &particle : message.second)
-                occupied.push_back(particle.cell);
-            }
-        handler->particles.update_cached_numbers();
-        list(std::move(occupied));
-        if (n_global() != n_before)
-          throw RunFailed(
-            "points were lost between cells: " + std::to_string(n_before) +
-            " before, " + std::to_string(n_global()) + " after");
-        moves.clear();
+        change_cells();
+        const types::particle_index n_now =
+          Utilities::MPI::sum(types::particle_index(n()), comm);
+        if (n_now != n_of_all_ranks)
+          throw RunFailed("points were lost between cells: " +
+                          std::to_string(n_of_all_ranks) + " before, " +
+                          std::to_string(n_now) + " after");
       }
     evaluate_supports();
     return changed;
@@ -291,56 +297,40 @@ namespace Impoint
 
 
 
-  /** Puts the particles that move into their new cells, which are added to
-   * @p occupied, or hands them out for other ranks. */
   template <int dim>
-  void PointCloud<dim>::change_cells(
-    std::map<unsigned int, std::vector<NewParticle>> &for_others,
-    std::vector<unsigned int>                        &occupied)
+  void PointCloud<dim>::change_cells()
   {
-    const unsigned int me =
-      Utilities::MPI::this_mpi_process(basis.grid().communicator());
-    const unsigned int n_doubles = property_layout.n_doubles();
+    const MPI_Comm     comm = basis.grid().communicator();
+    const unsigned int me   = Utilities::MPI::this_mpi_process(comm);
     std::sort(moves.begin(), moves.end(), [](const Move &a, const Move &b) {
       return a.particle < b.particle;
     });
-    std::vector<double> staying; // on this rank, without one allocation each
-    std::vector<typename Particles::ParticleHandler<dim>::particle_iterator>
-         leaving;
-    auto range = cell_ranges.begin();
-    for (auto move = moves.begin(); move != moves.end();)
-      {
-        while (range->end <= move->particle)
-          ++range;
-        auto particle =
-          handler->particles.particles_in_cell(basis.grid().cell(range->cell))
-            .begin();
-        for (unsigned int p = range->begin;
-             p < range->end && move != moves.end();
-             ++p, ++particle)
-          if (move->particle == p)
-            {
-              leaving.push_back(particle);
-              const double *begin = states[p], *end = begin + n_doubles;
-              if (move->rank == me)
-                staying.insert(staying.end(), begin, end);
-              else
-                for_others[move->rank].push_back(
-                  {move->cell, ids[p], std::vector<double>(begin, end)});
-              ++move;
-            }
-      }
-    handler->particles.remove_particles(leaving);
-
-    double *properties = staying.data();
+    std::vector<Arrival>                             arrivals;
+    std::map<unsigned int, std::vector<NewParticle>> for_others;
     for (const Move &move : moves)
-      if (move.rank == me)
-        {
-          put_in(move.cell, ids[move.particle], properties);
-          properties += n_doubles;
-          if (occupied.back() != move.cell)
-            occupied.push_back(move.cell);
-        }
+      {
+        auto &handle = handles[move.particle];
+        if (move.rank == me)
+          arrivals.push_back({move.cell,
+                              pool->get_id(handle),
+                              handle,
+                              references[move.particle]});
+        else
+          {
+            const double *state = states[move.particle];
+            for_others[move.rank].push_back(
+              {move.cell,
+               pool->get_id(handle),
+               std::vector<double>(state,
+                                   state + property_layout.n_doubles())});
+            pool->deregister_particle(handle);
+          }
+      }
+    if (Utilities::MPI::n_mpi_processes(comm) > 1)
+      for (const auto &message : Utilities::MPI::some_to_some(comm, for_others))
+        take_in(message.second, arrivals);
+    list(std::move(arrivals));
+    moves.clear();
   }
 
   template class PointCloud<2>;

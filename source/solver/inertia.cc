@@ -1,5 +1,8 @@
 #include <impoint/base/parameter_file.h>
+#include <impoint/grid/support_size.h>
 #include <impoint/solver/inertia.h>
+
+#include <algorithm>
 
 namespace Impoint
 {
@@ -82,6 +85,51 @@ namespace Impoint
 
 
 
+  /** Sums of one cell's points: mass, then momentum, then inertia force. */
+  template <int dim>
+  template <int n_static>
+  void Inertia<dim>::project_cell(const MaterialPoints<dim>             &points,
+                                  const typename PointCloud<dim>::Range &range,
+                                  const ArrayView<const unsigned int>    nodes)
+  {
+    const unsigned int n     = n_static > 0 ? n_static : nodes.size();
+    const auto        &slots = points.slots();
+    double             sums[array_size<n_static> * (2 * dim + 1)];
+    std::fill(sums, sums + n * (2 * dim + 1), 0.);
+    for (unsigned int p = range.begin; p < range.end; ++p)
+      {
+        const double *N     = points.support(p);
+        const double *state = points.data(p);
+        double        moving[2 * dim];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            moving[d]       = state[slots.v + d];
+            moving[dim + d] = state[slots.a + d];
+          }
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            const double part = N[a] * state[slots.mass];
+            double      *sum  = sums + a * (2 * dim + 1);
+            sum[0] += part;
+            for (unsigned int d = 0; d < 2 * dim; ++d)
+              sum[d + 1] += part * moving[d];
+          }
+      }
+    for (unsigned int a = 0; a < n; ++a)
+      {
+        const double      *sum = sums + a * (2 * dim + 1);
+        const unsigned int i   = nodes[a];
+        masses.local_element(i) += sum[0];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            velocities.local_element(i * dim + d) += sum[d + 1];
+            accelerations.local_element(i * dim + d) += sum[dim + d + 1];
+          }
+      }
+  }
+
+
+
   template <int dim>
   void Inertia<dim>::project(const ActiveNodes<dim>    &active,
                              const MaterialPoints<dim> &points,
@@ -94,30 +142,10 @@ namespace Impoint
     masses.reinit(active.scalars());
     velocities.reinit(active.unknowns());
     accelerations.reinit(active.unknowns());
-    const auto &slots = points.slots();
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
-      {
-        const auto  nodes = active.nodes(k);
-        const auto &range = points.ranges()[k];
-        for (unsigned int p = range.begin; p < range.end; ++p)
-          {
-            const double *N     = points.support(p);
-            const double *state = points.data(p);
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              {
-                const double       part = N[a] * state[slots.mass];
-                const unsigned int i    = nodes[a];
-                masses.local_element(i) += part;
-                for (unsigned int d = 0; d < dim; ++d)
-                  {
-                    velocities.local_element(i * dim + d) +=
-                      part * state[slots.v + d];
-                    accelerations.local_element(i * dim + d) +=
-                      part * state[slots.a + d];
-                  }
-              }
-          }
-      }
+      with_support_size<dim>(active.nodes(k).size(), [&](const auto n_static) {
+        project_cell<n_static>(points, points.ranges()[k], active.nodes(k));
+      });
     for (Vector *vector : {&masses, &velocities, &accelerations})
       vector->compress(VectorOperation::add);
     const double threshold = smallest_mass * masses.linfty_norm();

@@ -1,3 +1,4 @@
+#include <impoint/grid/support_size.h>
 #include <impoint/solver/motion.h>
 
 #include <algorithm>
@@ -13,36 +14,143 @@ namespace Impoint
                    const NodalVector                  &vector,
                    std::vector<double>                &values)
     {
+      const double *local = vector.begin();
       values.resize(nodes.size() * dim);
-      for (unsigned int i = 0; i < values.size(); ++i)
-        values[i] = vector.local_element(nodes[i / dim] * dim + i % dim);
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          values[a * dim + d] = local[nodes[a] * dim + d];
     }
+
+    /** sum_a N_a u_a */
+    template <int dim, int n_static>
+    inline Tensor<1, dim>
+    interpolate(const unsigned int n_nodes, const double *N, const double *u)
+    {
+      const unsigned int n = n_static > 0 ? n_static : n_nodes;
+      Tensor<1, dim>     value;
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          value[d] += N[a] * u[a * dim + d];
+      return value;
+    }
+
+    /** sum_a u_a x G_a */
+    template <int dim, int n_static>
+    inline Tensor<2, dim> interpolate_gradient(const unsigned int n_nodes,
+                                               const double      *G,
+                                               const double      *u)
+    {
+      const unsigned int n = n_static > 0 ? n_static : n_nodes;
+      Tensor<2, dim>     gradient;
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            gradient[i][j] += u[a * dim + i] * G[a * dim + j];
+      return gradient;
+    }
+
+    /** The points' state after the step, for those of one cell at a time. */
+    template <int dim>
+    class CellUpdate
+    {
+    public:
+      CellUpdate(MaterialPoints<dim> &points, const Inertia<dim> *inertia)
+        : points(points)
+        , slots(points.slots())
+        , inertia(inertia)
+        , new_history(points.carried().n_history)
+      {}
+
+      /** @p u, @p a: displacements and accelerations of the cell's nodes. */
+      template <int n_static>
+      void run(const typename PointCloud<dim>::Range &range,
+               const unsigned int                     n,
+               const double                          *u,
+               const double                          *a)
+      {
+        for (unsigned int p = range.begin; p < range.end; ++p)
+          {
+            const double *N = points.support(p);
+            displace(p, interpolate<dim, n_static>(n, N, u));
+            deform(p, interpolate_gradient<dim, n_static>(n, N + n, u));
+            if (inertia != nullptr)
+              accelerate(p, interpolate<dim, n_static>(n, N, a));
+          }
+      }
+
+    private:
+      void displace(const unsigned int p, const Tensor<1, dim> &u)
+      {
+        double *state = points.data(p);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            state[slots.x + d] += u[d];
+            state[slots.u + d] += u[d];
+          }
+      }
+
+      void deform(const unsigned int p, const Tensor<2, dim> &grad_u)
+      {
+        double *state = points.data(p);
+        points.respond(
+          p, grad_u, false, deformation, response, new_history.data());
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            state[slots.F + i * dim + j] = deformation.F[i][j];
+        for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
+          state[slots.stress + k] = response.stress[k];
+        if (dim == 2)
+          state[slots.stress + Voigt<dim>::n] = response.stress_zz;
+        if (!new_history.empty())
+          std::copy(new_history.begin(),
+                    new_history.end(),
+                    state + slots.history);
+      }
+
+      void accelerate(const unsigned int p, const Tensor<1, dim> &a)
+      {
+        double *state = points.data(p);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            state[slots.v + d] = inertia->new_velocity(state[slots.v + d],
+                                                       state[slots.a + d],
+                                                       a[d]);
+            state[slots.a + d] = a[d];
+          }
+      }
+
+      MaterialPoints<dim>                       &points;
+      const typename MaterialPoints<dim>::Slots &slots;
+      const Inertia<dim>                        *inertia;
+      Materials::Deformation<dim>                deformation;
+      Materials::Response<dim>                   response;
+      std::vector<double>                        new_history;
+    };
   } // namespace
 
 
 
   template <int dim>
-  std::vector<Point<dim>> new_places(const MaterialPoints<dim> &points,
-                                     const ActiveNodes<dim>    &active,
-                                     const NodalVector         &u)
+  void new_places(const MaterialPoints<dim> &points,
+                  const ActiveNodes<dim>    &active,
+                  const NodalVector         &u,
+                  std::vector<Point<dim>>   &places)
   {
-    std::vector<Point<dim>> places(points.n());
-    std::vector<double>     cell_u;
+    std::vector<double> cell_u;
+    places.resize(points.n());
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
         const auto  nodes = active.nodes(k);
         const auto &range = points.ranges()[k];
         gather_at<dim>(nodes, u, cell_u);
-        for (unsigned int p = range.begin; p < range.end; ++p)
-          {
-            const double *N = points.support(p);
-            places[p]       = points.position(p);
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              for (unsigned int d = 0; d < dim; ++d)
-                places[p][d] += N[a] * cell_u[a * dim + d];
-          }
+        with_support_size<dim>(nodes.size(), [&](const auto n_static) {
+          for (unsigned int p = range.begin; p < range.end; ++p)
+            places[p] =
+              points.position(p) + interpolate<dim, n_static>(nodes.size(),
+                                                              points.support(p),
+                                                              cell_u.data());
+        });
       }
-    return places;
   }
 
 
@@ -52,19 +160,20 @@ namespace Impoint
                          const NodalVector      &accelerations,
                          MaterialPoints<dim>    &points)
   {
+    std::vector<double> cell_a;
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
         const auto  nodes = active.nodes(k);
         const auto &range = points.ranges()[k];
+        gather_at<dim>(nodes, accelerations, cell_a);
         for (unsigned int p = range.begin; p < range.end; ++p)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              double sum = 0;
-              for (unsigned int a = 0; a < nodes.size(); ++a)
-                sum += points.support(p)[a] *
-                       accelerations.local_element(nodes[a] * dim + d);
-              points.data(p)[points.slots().a + d] = sum;
-            }
+          {
+            const Tensor<1, dim> a = interpolate<dim, -1>(nodes.size(),
+                                                          points.support(p),
+                                                          cell_a.data());
+            for (unsigned int d = 0; d < dim; ++d)
+              points.data(p)[points.slots().a + d] = a[d];
+          }
       }
   }
 
@@ -76,80 +185,42 @@ namespace Impoint
                      const Inertia<dim>     *inertia,
                      MaterialPoints<dim>    &points)
   {
-    const auto                 &slots   = points.slots();
-    const bool                  dynamic = inertia != nullptr;
-    Materials::Deformation<dim> deformation;
-    Materials::Response<dim>    response;
-    std::vector<double>         new_history(points.carried().n_history);
-    std::vector<double>         cell_u, cell_a;
+    CellUpdate<dim>     update(points, inertia);
+    std::vector<double> cell_u, cell_a;
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
-        const auto         nodes = active.nodes(k);
-        const unsigned int n     = nodes.size();
-        const auto        &range = points.ranges()[k];
+        const auto nodes = active.nodes(k);
         gather_at<dim>(nodes, u, cell_u);
-        if (dynamic)
+        if (inertia != nullptr)
           {
-            cell_a.resize(n * dim);
-            for (unsigned int a = 0; a < n; ++a)
+            cell_a.resize(nodes.size() * dim);
+            for (unsigned int a = 0; a < nodes.size(); ++a)
               for (unsigned int d = 0; d < dim; ++d)
                 cell_a[a * dim + d] =
                   inertia->acceleration(nodes[a] * dim + d,
                                         cell_u[a * dim + d]);
           }
-        for (unsigned int p = range.begin; p < range.end; ++p)
-          {
-            double        *state = points.data(p);
-            const double  *N     = points.support(p);
-            const double  *G     = N + n;
-            Tensor<2, dim> grad_u;
-            for (unsigned int a = 0; a < n; ++a)
-              for (unsigned int i = 0; i < dim; ++i)
-                {
-                  state[slots.x + i] += N[a] * cell_u[a * dim + i];
-                  state[slots.u + i] += N[a] * cell_u[a * dim + i];
-                  for (unsigned int j = 0; j < dim; ++j)
-                    grad_u[i][j] += cell_u[a * dim + i] * G[a * dim + j];
-                }
-            points.respond(
-              p, grad_u, false, deformation, response, new_history.data());
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                state[slots.F + i * dim + j] = deformation.F[i][j];
-            std::copy(response.stress.begin(),
-                      response.stress.end(),
-                      state + slots.stress);
-            if (dim == 2)
-              state[slots.stress + Voigt<dim>::n] = response.stress_zz;
-            if (!new_history.empty())
-              std::copy(new_history.begin(),
-                        new_history.end(),
-                        state + slots.history);
-            for (unsigned int d = 0; d < dim && dynamic; ++d)
-              {
-                double a_new = 0;
-                for (unsigned int a = 0; a < n; ++a)
-                  a_new += N[a] * cell_a[a * dim + d];
-                state[slots.v + d] = inertia->new_velocity(state[slots.v + d],
-                                                           state[slots.a + d],
-                                                           a_new);
-                state[slots.a + d] = a_new;
-              }
-          }
+        with_support_size<dim>(nodes.size(), [&](const auto n_static) {
+          update.template run<n_static>(points.ranges()[k],
+                                        nodes.size(),
+                                        cell_u.data(),
+                                        cell_a.data());
+        });
       }
   }
 
-#define IMPOINT_INSTANTIATE(dim)                                               \
-  template std::vector<Point<dim>> new_places(const MaterialPoints<dim> &,     \
-                                              const ActiveNodes<dim> &,        \
-                                              const NodalVector &);            \
-  template void                    set_accelerations(const ActiveNodes<dim> &, \
-                                                     const NodalVector &,      \
-                                                     MaterialPoints<dim> &);   \
-  template void                    update_points(const ActiveNodes<dim> &,     \
-                                                 const NodalVector &,          \
-                                                 const Inertia<dim> *,         \
-                                                 MaterialPoints<dim> &);
+#define IMPOINT_INSTANTIATE(dim)                            \
+  template void new_places(const MaterialPoints<dim> &,     \
+                           const ActiveNodes<dim> &,        \
+                           const NodalVector &,             \
+                           std::vector<Point<dim>> &);      \
+  template void set_accelerations(const ActiveNodes<dim> &, \
+                                  const NodalVector &,      \
+                                  MaterialPoints<dim> &);   \
+  template void update_points(const ActiveNodes<dim> &,     \
+                              const NodalVector &,          \
+                              const Inertia<dim> *,         \
+                              MaterialPoints<dim> &);
 
   IMPOINT_INSTANTIATE(2)
   IMPOINT_INSTANTIATE(3)

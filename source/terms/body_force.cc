@@ -1,6 +1,8 @@
 #include <impoint/base/on_all_ranks.h>
 #include <impoint/terms/body_force.h>
 
+#include <algorithm>
+
 namespace Impoint
 {
   template <int dim>
@@ -11,24 +13,39 @@ namespace Impoint
              const double                        at)
   {
     LinearAlgebra::distributed::Vector<double> forces(active.unknowns());
-    const unsigned int                         mass = points.slots().mass;
+    if (std::all_of(body_forces.begin(),
+                    body_forces.end(),
+                    [](const auto &force) { return force.is_zero(); }))
+      return forces;
+    const unsigned int          mass = points.slots().mass;
+    std::vector<Tensor<1, dim>> constant;
+    for (const auto &force : body_forces)
+      constant.push_back(force.is_constant() ? force.vector({}, at) :
+                                               Tensor<1, dim>());
+    std::vector<double> cell_forces;
     on_all_ranks(active.basis().grid().communicator(), [&]() {
       for (unsigned int k = 0; k < active.n_material_cells(); ++k)
         {
           const auto  nodes = active.nodes(k);
           const auto &range = points.ranges()[k];
+          cell_forces.assign(nodes.size() * dim, 0.);
           for (unsigned int p = range.begin; p < range.end; ++p)
             {
-              const Expression<dim> &force = body_forces[points.body(p)];
-              if (force.is_zero())
-                continue;
+              const unsigned int   body  = points.body(p);
+              const auto          &force = body_forces[body];
+              const double        *N     = points.support(p);
               const Tensor<1, dim> load =
-                points.data(p)[mass] * force.vector(points.position(p), at);
+                points.data(p)[mass] * (force.is_constant() ?
+                                          constant[body] :
+                                          force.vector(points.position(p), at));
               for (unsigned int a = 0; a < nodes.size(); ++a)
                 for (unsigned int d = 0; d < dim; ++d)
-                  forces.local_element(nodes[a] * dim + d) +=
-                    points.support(p)[a] * load[d];
+                  cell_forces[a * dim + d] += N[a] * load[d];
             }
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            for (unsigned int d = 0; d < dim; ++d)
+              forces.local_element(nodes[a] * dim + d) +=
+                cell_forces[a * dim + d];
         }
     });
     forces.compress(VectorOperation::add);

@@ -1,3 +1,4 @@
+#include <impoint/grid/support_size.h>
 #include <impoint/terms/internal_force.h>
 
 #include <algorithm>
@@ -6,12 +7,6 @@ namespace Impoint
 {
   namespace
   {
-    constexpr int largest_support = 64; // cubic splines in 3D
-
-    /** Number of nodes: a constant for the compiler where it is known. */
-    template <int n_static>
-    constexpr int array_size = n_static > 0 ? n_static : largest_support;
-
     template <int dim>
     constexpr int voigt_index(const int i, const int j)
     {
@@ -168,25 +163,14 @@ namespace Impoint
   void InternalForce<dim>::add(const unsigned int k, CellSystem &system) const
   {
     const bool constant = system.matrix != nullptr && one_constant_tangent(k);
-    const auto run      = [&](const auto n_static) {
+    with_support_size<dim>(system.n, [&](const auto n_static) {
       if (constant)
         add_constant<n_static>(k, system);
       else if (points.symmetric_tangent())
         add_cell<n_static, true>(k, system);
       else
         add_cell<n_static, false>(k, system);
-    };
-    switch (system.n)
-      {
-        case dim + 1:
-          return run(std::integral_constant<int, dim + 1>());
-        case (1 << dim):
-          return run(std::integral_constant<int, (1 << dim)>());
-        case (dim == 2 ? 9 : 27): // quadratic, spline or not
-          return run(std::integral_constant<int, (dim == 2 ? 9 : 27)>());
-        default:
-          return run(std::integral_constant<int, -1>());
-      }
+    });
   }
 
 

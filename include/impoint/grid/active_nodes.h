@@ -3,6 +3,7 @@
 
 #include <impoint/base/block_pattern.h>
 #include <impoint/grid/basis.h>
+#include <impoint/grid/node_set.h>
 
 #include <deal.II/base/partitioner.h>
 
@@ -83,12 +84,6 @@ namespace Impoint
       return compact_of[node];
     }
 
-    /** Whether some material cell of any rank holds compact node @p i. */
-    bool has_material(const unsigned int i) const
-    {
-      return with_material[i];
-    }
-
     /** Number of compact node @p i among all ranks' active nodes. */
     types::global_dof_index global_number(const unsigned int i) const
     {
@@ -124,28 +119,36 @@ namespace Impoint
     }
 
   private:
+    /** A node in a cell: the cell's place and the node's among its nodes. */
+    struct Visit
+    {
+      unsigned int cell, node;
+    };
+
     void activate(const std::vector<unsigned int> &material_cells,
                   const std::vector<unsigned int> &boundary_cells);
     void number();
+    void list_cells_of_nodes();
     void build_pattern();
-    std::vector<char>
-    shared_marks(const std::vector<unsigned int> &marked,
-                 const std::vector<unsigned int> &wanted) const;
+    void mark_nodes_of(const std::vector<unsigned int> &of_cells);
+    void share_marks(const std::vector<unsigned int> &wanted);
 
     const Basis<dim>         &functions;
     std::vector<unsigned int> last_material, last_boundary;
     bool                      fresh = true;
+    NodeSet                   marks; // of the basis' nodes; empty between calls
 
     std::vector<unsigned int>            cells;
     unsigned int                         n_material = 0;
     std::vector<unsigned int>            positions;  // per cell of the grid
     std::vector<unsigned int>            compact_of; // per node of the basis
     std::vector<unsigned int>            grid_nodes;
-    std::vector<char>                    with_material;
     std::vector<types::global_dof_index> global_numbers;
     unsigned int                         n_owned = 0;
     std::vector<std::size_t>  first_node, first_block; // per active cell
     std::vector<unsigned int> cell_nodes, scatter_map;
+    std::vector<std::size_t>  first_visit; // per compact node
+    std::vector<Visit>        visits;
     BlockPattern              block_pattern;
     std::shared_ptr<const Utilities::MPI::Partitioner> unknown_partitioner,
       node_partitioner;

@@ -8,6 +8,7 @@
 #include <deal.II/fe/mapping.h>
 #include <deal.II/grid/tria.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -121,7 +122,11 @@ namespace Impoint
                                          const Point<dim> &upper) const;
 
     /** Reference coordinates of @p x in cell @p c (anywhere in space). */
-    Point<dim> to_reference(const unsigned int c, const Point<dim> &x) const;
+    Point<dim> to_reference(const unsigned int c, const Point<dim> &x) const
+    {
+      const Point<dim> linear(inverse_jacobian[c] * (x - corner[c]));
+      return affine[c] ? linear : to_reference_curved(c, x, linear);
+    }
 
     /** Whether reference coordinates lie in the cell, up to round-off. */
     bool is_inside(const Point<dim> &xi, const double tolerance = 1e-12) const
@@ -168,18 +173,35 @@ namespace Impoint
     };
     static constexpr unsigned int refined = numbers::invalid_unsigned_int - 1;
 
-    void   make_triangulation(const ParameterFile  &file,
-                              const GridParameters &parameters);
-    void   refine(const ParameterFile &file, const GridParameters &parameters);
-    void   build_cells();
-    void   build_neighbors();
-    void   set_affine_map(const unsigned int c);
-    bool   agree_on_axes(Tensor<2, dim> &inverse_of_all) const;
-    void   detect_lattice();
-    double outside_by(const Point<dim> &xi) const;
-    void   order_faces(const Point<dim>            &xi,
-                       std::array<unsigned int, 6> &faces,
-                       unsigned int                &n_violated) const;
+    void make_triangulation(const ParameterFile  &file,
+                            const GridParameters &parameters);
+    void refine(const ParameterFile &file, const GridParameters &parameters);
+    void build_cells();
+    void build_neighbors();
+    void set_affine_map(const unsigned int c);
+    bool agree_on_axes(Tensor<2, dim> &inverse_of_all) const;
+    void detect_lattice();
+    Point<dim> to_reference_curved(const unsigned int c,
+                                   const Point<dim>  &x,
+                                   const Point<dim>  &linear) const;
+    void       order_faces(const Point<dim>            &xi,
+                           std::array<unsigned int, 6> &faces,
+                           unsigned int                &n_violated) const;
+
+    /** How far outside of the cell reference coordinates are. */
+    double outside_by(const Point<dim> &xi) const
+    {
+      double worst = -xi[0], sum = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          worst = std::max(worst, -xi[d]);
+          if (!is_simplicial)
+            worst = std::max(worst, xi[d] - 1);
+          sum += xi[d];
+        }
+      return is_simplicial ? std::max(worst, sum - 1) : worst;
+    }
+
     unsigned int next_cell(const unsigned int c,
                            const unsigned int face,
                            const Point<dim>  &x) const;

@@ -72,6 +72,15 @@ namespace Impoint
       functions->evaluate(c, xi, support);
     }
 
+    /** The same for several places @p xi in the cell, one support after the
+     * other. */
+    void evaluate(const unsigned int                 c,
+                  const ArrayView<const Point<dim>> &xi,
+                  double                            *supports) const
+    {
+      functions->evaluate_all(c, xi, supports);
+    }
+
     types::global_dof_index global_index(const unsigned int node) const
     {
       return lists().global_indices[node];

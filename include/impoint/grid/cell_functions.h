@@ -3,6 +3,7 @@
 
 #include <impoint/grid/background_grid.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/types.h>
 
 #include <array>
@@ -53,6 +54,18 @@ namespace Impoint
     virtual void evaluate(const unsigned int c,
                           const Point<dim>  &xi,
                           double            *support) const = 0;
+
+    /** The same for several places @p xi, one support after the other. */
+    virtual void evaluate_all(const unsigned int                 c,
+                              const ArrayView<const Point<dim>> &xi,
+                              double                            *supports) const
+    {
+      for (const Point<dim> &place : xi)
+        {
+          evaluate(c, place, supports);
+          supports += (dim + 1) * node_lists.n_nodes_of(c);
+        }
+    }
 
     /**
      * Nodes of the known cell @p c whose functions do not vanish on its face

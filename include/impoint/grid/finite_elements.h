@@ -24,6 +24,10 @@ namespace Impoint
                   const Point<dim>  &xi,
                   double            *support) const override;
 
+    void evaluate_all(const unsigned int                 c,
+                      const ArrayView<const Point<dim>> &xi,
+                      double *supports) const override;
+
     std::vector<unsigned int>
     nodes_on_face(const unsigned int c, const unsigned int f) const override;
 
@@ -46,9 +50,6 @@ namespace Impoint
     void reference_functions(const Point<dim> &xi,
                              double           *values,
                              double           *gradients) const;
-    void linear_functions(const Point<dim> &xi,
-                          double           *values,
-                          double           *gradients) const;
     void quadratic_tensor_functions(const Point<dim> &xi,
                                     double           *values,
                                     double           *gradients) const;

@@ -6,18 +6,20 @@
 
 #include <deal.II/particles/property_pool.h>
 
-#include <map>
 #include <memory>
 #include <vector>
 
 namespace Impoint
 {
   /**
-   * Particles of one kind in the grid's cells: a Particles::ParticleHandler
-   * with what it takes to go over its particles cell by cell at full speed.
+   * Particles of one kind in the grid's cells. Their state lies in deal.II's
+   * pool of properties, as that of a Particles::ParticleHandler does; the lists
+   * beside it serve to go over the particles cell by cell at full speed, and
+   * to put the few that leave their cell into another one without a look at
+   * the rest of the grid.
    *
-   * Particles are numbered 0 ... n() - 1 on this rank, those of a cell
-   * together, cells increasing. Numbers and data() pointers change whenever a
+   * Particles are numbered 0 ... n() - 1 on this rank: cells increasing, those
+   * of a cell by their id. Numbers and data() pointers change whenever a
    * particle changes its cell; id() stays. Nothing outside of this class
    * sorts, moves or counts particles.
    */
@@ -57,7 +59,10 @@ namespace Impoint
     {
       return states.size();
     }
-    types::particle_index n_global() const;
+    types::particle_index n_global() const
+    {
+      return n_of_all_ranks;
+    }
 
     const std::vector<Range> &ranges() const
     {
@@ -76,7 +81,7 @@ namespace Impoint
 
     types::particle_index id(const unsigned int p) const
     {
-      return ids[p];
+      return pool->get_id(handles[p]);
     }
 
     Point<dim> position(const unsigned int p) const
@@ -114,7 +119,7 @@ namespace Impoint
     }
 
   private:
-    struct Handler; // Particles::ParticleHandler
+    using Pool = Particles::PropertyPool<dim>;
 
     /** A particle that changes its cell. */
     struct Move
@@ -123,31 +128,39 @@ namespace Impoint
       unsigned int rank;
     };
 
+    /** A particle of the pool that comes into a cell. */
+    struct Arrival
+    {
+      unsigned int          cell;
+      types::particle_index id;
+      typename Pool::Handle handle;
+      Point<dim>            reference; // coordinates in the cell
+    };
+
     void find_strays(const std::vector<Point<dim>>   &new_places,
                      const std::vector<unsigned int> &strays);
-    void
-    change_cells(std::map<unsigned int, std::vector<NewParticle>> &for_others,
-                 std::vector<unsigned int>                        &occupied);
-    void put_in(const std::vector<NewParticle> &particles);
-    void put_in(const unsigned int          cell,
-                const types::particle_index id,
-                double                     *properties);
-    void list(std::vector<unsigned int> occupied_cells);
+    void change_cells();
+    void take_in(const std::vector<NewParticle> &particles,
+                 std::vector<Arrival>           &arrivals);
+    void list(std::vector<Arrival> arrivals);
+    void append(const unsigned int          cell,
+                const typename Pool::Handle handle,
+                const Point<dim>           &reference);
+    void place_states(const std::size_t n_new);
     void evaluate_supports();
 
     const Basis<dim>                  &basis;
     PropertyLayout                     property_layout;
-    unsigned int                       reference_slot;
-    std::unique_ptr<Handler>           handler;
+    std::unique_ptr<Pool>              pool;
+    types::particle_index              n_of_all_ranks = 0;
     std::vector<Range>                 cell_ranges;
-    std::vector<double *>              states;
-    std::vector<types::particle_index> ids;
+    std::vector<typename Pool::Handle> handles;
+    std::vector<double *>              states; // in the pool
+    std::vector<Point<dim>>            references;
     std::vector<std::size_t>           first_support;
     std::vector<double>                supports;
-
-    // those found by find(), used by move()
-    std::vector<Point<dim>> references; // in the order of states
-    std::vector<Move>       moves;
+    std::vector<Move>                  moves;          // of find(), for move()
+    std::size_t                        n_unsorted = 0; // in memory
   };
 } // namespace Impoint
 

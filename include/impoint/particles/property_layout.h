@@ -7,7 +7,7 @@
 namespace Impoint
 {
   /**
-   * What a particle carries, by name: slots in the ParticleHandler's
+   * What a particle carries, by name: slots in the pool of
    * properties. No other code knows a slot's number.
    */
   class PropertyLayout

@@ -79,6 +79,11 @@ namespace Impoint
     }
 
   private:
+    template <int n_static>
+    void project_cell(const MaterialPoints<dim>             &points,
+                      const typename PointCloud<dim>::Range &range,
+                      const ArrayView<const unsigned int>    nodes);
+
     double beta, gamma;
     bool   is_consistent;
     double dt = 1;

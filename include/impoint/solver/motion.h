@@ -17,10 +17,10 @@ namespace Impoint
 
   /** Where the points will be after a step with displacements @p u. */
   template <int dim>
-  std::vector<Point<dim>>
-  new_places(const MaterialPoints<dim>                        &points,
-             const ActiveNodes<dim>                           &active,
-             const LinearAlgebra::distributed::Vector<double> &u);
+  void new_places(const MaterialPoints<dim>                        &points,
+                  const ActiveNodes<dim>                           &active,
+                  const LinearAlgebra::distributed::Vector<double> &u,
+                  std::vector<Point<dim>>                          &places);
 
   /** Gives the points the accelerations of the nodes. */
   template <int dim>
