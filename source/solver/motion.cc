@@ -70,6 +70,38 @@ namespace Impoint
 
 
 
+  namespace
+  {
+    /** Velocity @p v and acceleration @p a of a point after the step, from the
+     * nodes' accelerations and, if there is a filter, the velocities that they
+     * saw at its start. */
+    template <int dim>
+    void update_velocity(const Inertia<dim>        &inertia,
+                         const unsigned int         n,
+                         const double              *N,
+                         const std::vector<double> &nodal_accelerations,
+                         const std::vector<double> &seen,
+                         double                    *v,
+                         double                    *a)
+    {
+      const double filtered = inertia.filtered_part();
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double unseen = v[d], a_new = 0;
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              a_new += N[i] * nodal_accelerations[i * dim + d];
+              if (filtered > 0)
+                unseen -= N[i] * seen[i * dim + d];
+            }
+          v[d] = inertia.new_velocity(v[d] - filtered * unseen, a[d], a_new);
+          a[d] = a_new;
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   void update_points(const ActiveNodes<dim> &active,
                      const NodalVector      &u,
@@ -81,7 +113,7 @@ namespace Impoint
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
     std::vector<double>         new_history(points.carried().n_history);
-    std::vector<double>         cell_u, cell_a;
+    std::vector<double>         cell_u, cell_a, cell_seen;
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
         const auto         nodes = active.nodes(k);
@@ -96,6 +128,13 @@ namespace Impoint
                 cell_a[a * dim + d] =
                   inertia->acceleration(nodes[a] * dim + d,
                                         cell_u[a * dim + d]);
+          }
+        if (dynamic && inertia->filtered_part() > 0)
+          {
+            cell_seen.resize(n * dim);
+            for (unsigned int i = 0; i < n * dim; ++i)
+              cell_seen[i] =
+                inertia->seen_velocity(nodes[i / dim] * dim + i % dim);
           }
         for (unsigned int p = range.begin; p < range.end; ++p)
           {
@@ -125,16 +164,14 @@ namespace Impoint
               std::copy(new_history.begin(),
                         new_history.end(),
                         state + slots.history);
-            for (unsigned int d = 0; d < dim && dynamic; ++d)
-              {
-                double a_new = 0;
-                for (unsigned int a = 0; a < n; ++a)
-                  a_new += N[a] * cell_a[a * dim + d];
-                state[slots.v + d] = inertia->new_velocity(state[slots.v + d],
-                                                           state[slots.a + d],
-                                                           a_new);
-                state[slots.a + d] = a_new;
-              }
+            if (dynamic)
+              update_velocity<dim>(*inertia,
+                                   n,
+                                   N,
+                                   cell_a,
+                                   cell_seen,
+                                   state + slots.v,
+                                   state + slots.a);
           }
       }
   }
