@@ -65,6 +65,7 @@ namespace Impoint
         {"Cohesion", {"Mohr-Coulomb", "Drucker-Prager"}},
         {"Friction angle", {"Mohr-Coulomb", "Drucker-Prager"}},
         {"Dilation angle", {"Mohr-Coulomb", "Drucker-Prager"}},
+        {"Close gaps", {"Mohr-Coulomb", "Drucker-Prager"}},
         {"Yield stress", {"von Mises"}},
         {"Softening residual", {"Mohr-Coulomb", "Drucker-Prager", "von Mises"}},
         {"Softening strain", {"Mohr-Coulomb", "Drucker-Prager", "von Mises"}}};
@@ -183,6 +184,13 @@ namespace Impoint
                           Patterns::Double(0),
                           "Plastic models: equivalent plastic strain in which "
                           "strength decays [-].");
+        prm.declare_entry(
+          "Close gaps",
+          "true",
+          Patterns::Bool(),
+          "Mohr-Coulomb, Drucker-Prager: what was torn open bears no pressure "
+          "before it is closed again. 'false', as in the papers: it does at "
+          "once, and the volume of what flows grows with time.");
       }
     } // namespace
 
@@ -245,7 +253,10 @@ namespace Impoint
       if (model == "Hencky")
         return std::make_unique<Hencky<dim>>(moduli);
       return std::make_unique<Elastoplastic<dim>>(
-        moduli, create_surface(file, section, model), softening(file, section));
+        moduli,
+        create_surface(file, section, model),
+        softening(file, section),
+        file.value(section + "/Close gaps") == "true");
     }
   } // namespace Materials
 } // namespace Impoint

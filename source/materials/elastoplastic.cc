@@ -21,16 +21,25 @@ namespace Impoint
     Elastoplastic<dim>::Elastoplastic(
       const ElasticModuli                &moduli,
       std::unique_ptr<const YieldSurface> surface,
-      const Softening                    &softening)
+      const Softening                    &softening,
+      const bool                          closes_gaps)
       : moduli(moduli)
       , surface(std::move(surface))
       , softening(softening)
+      , closes_gaps(closes_gaps)
     {}
 
 
 
     namespace
     {
+      double volume_strain(const std::array<double, 3> &strain)
+      {
+        return strain[0] + strain[1] + strain[2];
+      }
+
+
+
       /** Principal stresses; in 2D the third is that out of plane. */
       template <int dim>
       std::array<double, 3>
@@ -52,8 +61,8 @@ namespace Impoint
       const auto          elastic =
         elastic_strain(moduli,
                        three_values<dim>(stress.values, initial.stress_zz));
+      history[n_elastic] = history[n_elastic + 1] = 0;
       store(elastic, elastic, stress.directions, history);
-      history[n_elastic] = 0;
     }
 
 
@@ -98,7 +107,6 @@ namespace Impoint
 
 
 
-    /** Elastic strains as b - 1, and the length of what has become plastic. */
     template <int dim>
     void Elastoplastic<dim>::store(const std::array<double, 3> &elastic,
                                    const std::array<double, 3> &trial,
@@ -113,9 +121,8 @@ namespace Impoint
       if (dim == 2)
         history[Voigt<dim>::n] = std::expm1(2 * elastic[2]);
 
-      double volume = 0, square = 0;
-      for (int a = 0; a < 3; ++a)
-        volume += trial[a] - elastic[a];
+      const double volume = volume_strain(trial) - volume_strain(elastic);
+      double       square = 0;
       for (int a = 0; a < 3; ++a)
         {
           const double deviator = trial[a] - elastic[a] - volume / 3;
@@ -137,8 +144,11 @@ namespace Impoint
       const VoigtVector<dim> b =
         trial_b(deformation.grad_increment, old_history);
       const Spectrum<dim> b_minus_one = spectrum<dim>(b);
-      const auto          trial =
+      auto                trial =
         trial_strain(b_minus_one, dim == 2 ? old_history[Voigt<dim>::n] : 0.);
+      const double opening = old_history[n_elastic + 1];
+      for (double &strain : trial)
+        strain += opening / 3;
 
       PrincipalReturn result;
       surface->return_map(moduli,
@@ -153,14 +163,19 @@ namespace Impoint
       if (tangent_wanted)
         response.tangent = tangent(b_minus_one, result);
 
+      using Region = PrincipalReturn::Region;
       std::copy_n(old_history, n_history(), history);
-      if (result.region == PrincipalReturn::Region::elastic)
-        std::copy(b.begin(), b.end(), history);
-      else
-        store(elastic_strain(moduli, result.stress),
-              trial,
-              b_minus_one.directions,
-              history);
+      if (result.region == Region::elastic && opening == 0)
+        {
+          std::copy(b.begin(), b.end(), history);
+          return;
+        }
+      const auto elastic = elastic_strain(moduli, result.stress);
+      store(elastic, trial, b_minus_one.directions, history);
+      history[n_elastic + 1] =
+        closes_gaps && result.region == Region::apex ?
+          std::max(0., volume_strain(trial) - volume_strain(elastic)) :
+          0.;
     }
 
 

@@ -150,8 +150,8 @@ namespace Impoint
                 for (unsigned int a = 0; a < nodes.size(); ++a)
                   for (unsigned int d = 0; d < dim; ++d)
                     accelerations[a * dim + d] =
-                      inertia->acceleration(nodes[a] * dim + d,
-                                            cell_u[a * dim + d]);
+                      inertia->balanced_acceleration(nodes[a] * dim + d,
+                                                     cell_u[a * dim + d]);
                 consistent_mass.add(k,
                                     accelerations.data(),
                                     inertia->alpha(),
@@ -209,8 +209,8 @@ namespace Impoint
         const double mass = inertia->mass(i);
         for (unsigned int d = 0; d < dim; ++d)
           rest.local_element(i * dim + d) +=
-            mass *
-            inertia->acceleration(i * dim + d, u.local_element(i * dim + d));
+            mass * inertia->balanced_acceleration(i * dim + d,
+                                                  u.local_element(i * dim + d));
         if (tangent_wanted)
           {
             const auto row   = problem->pattern.columns.begin();

@@ -61,18 +61,22 @@ namespace Impoint
         , new_history(points.carried().n_history)
       {}
 
-      /** @p u, @p a: displacements and accelerations of the cell's nodes. */
+      /** @p u, @p a: displacements and accelerations of the cell's nodes; @p
+       * seen: the velocities that they saw at the start, or null. */
       template <int n_static>
       void run(const typename PointCloud<dim>::Range &range,
                const unsigned int                     n,
                const double                          *u,
-               const double                          *a)
+               const double                          *a,
+               const double                          *seen)
       {
         for (unsigned int p = range.begin; p < range.end; ++p)
           {
             const double *N = points.support(p);
             displace(p, interpolate<dim, n_static>(n, N, u));
             deform(p, interpolate_gradient<dim, n_static>(n, N + n, u));
+            if (seen != nullptr)
+              filter(p, interpolate<dim, n_static>(n, N, seen));
             if (inertia != nullptr)
               accelerate(p, interpolate<dim, n_static>(n, N, a));
           }
@@ -105,6 +109,16 @@ namespace Impoint
           std::copy(new_history.begin(),
                     new_history.end(),
                     state + slots.history);
+      }
+
+      /** Takes the filtered part of what the grid doesn't see of the velocity.
+       */
+      void filter(const unsigned int p, const Tensor<1, dim> &seen)
+      {
+        double *state = points.data(p);
+        for (unsigned int d = 0; d < dim; ++d)
+          state[slots.v + d] -=
+            inertia->filtered_part() * (state[slots.v + d] - seen[d]);
       }
 
       void accelerate(const unsigned int p, const Tensor<1, dim> &a)
@@ -186,7 +200,8 @@ namespace Impoint
                      MaterialPoints<dim>    &points)
   {
     CellUpdate<dim>     update(points, inertia);
-    std::vector<double> cell_u, cell_a;
+    std::vector<double> cell_u, cell_a, cell_seen;
+    const bool filters = inertia != nullptr && inertia->filtered_part() > 0;
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
         const auto nodes = active.nodes(k);
@@ -200,11 +215,19 @@ namespace Impoint
                   inertia->acceleration(nodes[a] * dim + d,
                                         cell_u[a * dim + d]);
           }
+        if (filters)
+          {
+            cell_seen.resize(nodes.size() * dim);
+            for (unsigned int i = 0; i < nodes.size() * dim; ++i)
+              cell_seen[i] =
+                inertia->seen_velocity(nodes[i / dim] * dim + i % dim);
+          }
         with_support_size<dim>(nodes.size(), [&](const auto n_static) {
           update.template run<n_static>(points.ranges()[k],
                                         nodes.size(),
                                         cell_u.data(),
-                                        cell_a.data());
+                                        cell_a.data(),
+                                        filters ? cell_seen.data() : nullptr);
         });
       }
   }

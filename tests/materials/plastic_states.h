@@ -10,7 +10,11 @@ inline const ElasticModuli moduli(1000, 0.3);
 template <int dim>
 using Plastic = Elastoplastic<dim>;
 
-// history and gradient of the step; in 3D those of plane strain if asked for
+// where the equivalent plastic strain stands in the history
+template <int dim>
+constexpr int kappa = dim == 2 ? 4 : 6;
+
+// history and gradient of the step
 template <int dim>
 struct State
 {
@@ -45,7 +49,8 @@ State<dim> random_state(const Plastic<dim> &material, const unsigned int n)
   State<dim> state;
   state.history.resize(material.n_history());
   material.initialise(stress, state.history.data());
-  state.history.back() = random_number(0, 0.1);
+  state.history[kappa<dim>] = random_number(0, 0.1);
+  state.history.back()      = n % 4 == 0 ? random_number(0, 0.01) : 0.; // open
   for (int k = 0; k < dim * dim; ++k)
     state.f[k / dim][k % dim] =
       (k / dim == k % dim ? 1. : 0.) + random_number(-0.01, 0.01);

@@ -31,7 +31,7 @@ void check_states(const std::string &name, const Plastic<dim> &material)
               moduli.young);
 
       // what is remembered bears the stress in a step that does nothing
-      after.back() = state.history.back();
+      after[kappa<dim>] = state.history[kappa<dim>];
       const State<dim> next{after, unit_symmetric_tensor<dim>()};
       const auto       again = next.answer(material);
       raise(memory, std::abs(again.stress_zz - here.stress_zz) / moduli.young);
@@ -50,7 +50,7 @@ State<3> in_3d(const State<2> &state)
 {
   const auto &old = state.history;
   State<3>    solid;
-  solid.history = {old[0], old[1], old[3], old[2], 0, 0, old[4]};
+  solid.history = {old[0], old[1], old[3], old[2], 0, 0, old[4], old[5]};
   solid.f[2][2] = 1;
   for (int k = 0; k < 4; ++k)
     solid.f[k / 2][k % 2] = state.f[k / 2][k % 2];
@@ -64,10 +64,12 @@ void check(const std::string &name,
 {
   const Plastic<2> flat(moduli,
                         std::make_unique<Surface>(numbers...),
-                        softening);
+                        softening,
+                        true);
   const Plastic<3> solid(moduli,
                          std::make_unique<Surface>(numbers...),
-                         softening);
+                         softening,
+                         true);
   check_states<2>(name + " 2D", flat);
   check_states<3>(name + " 3D", solid);
 
@@ -92,12 +94,14 @@ void check(const std::string &name,
     std::cout << "  no plastic strain\n";
 }
 
-// sand that is pulled apart has no stress and no stiffness, and none is left
-void torn_sand()
+// sand that is pulled apart has no stress and no stiffness, and none is left;
+// pushed together it bears pressure at once or when it is closed
+void torn_sand(const bool closes_gaps)
 {
   const Plastic<2>    sand(moduli,
                         std::make_unique<MohrCoulomb>(0, 20, 0),
-                        Softening());
+                        Softening(),
+                        closes_gaps);
   State<2>            state{std::vector<double>(sand.n_history(), 0.),
                  1.1 * unit_symmetric_tensor<2>()};
   std::vector<double> after;
@@ -111,6 +115,16 @@ void torn_sand()
     raise(largest, std::abs(after[k]));
   report("torn sand: stress, tangent, elastic strain", largest, 1e-300);
 
+  const State<2> together{after, 1 / 1.1 * unit_symmetric_tensor<2>()};
+  const double   pressure = -together.answer(sand, &after).stress[0];
+  const State<2> pressed{after, 0.99 * unit_symmetric_tensor<2>()};
+  std::cout << "  pressure when closed: " << (pressure > 1e-10)
+            << ", then pressed: " << (pressed.answer(sand).stress[0] < -10)
+            << '\n';
+}
+
+void softening()
+{
   const Softening soft{0.2, 0.1};
   report("softening",
          std::abs(soft.strength(0) - 1) + std::abs(soft.strength(100) - 0.2) +
@@ -124,5 +138,7 @@ int main()
   check<MohrCoulomb>("Mohr-Coulomb, soil", Softening{0.5, 0.1}, 5., 30., 10.);
   check<DruckerPrager>("Drucker-Prager", Softening{0.5, 0.1}, 5., 30., 10.);
   check<VonMises>("von Mises", Softening(), 9.);
-  torn_sand();
+  torn_sand(true);
+  torn_sand(false);
+  softening();
 }

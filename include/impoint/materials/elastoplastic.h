@@ -24,9 +24,15 @@ namespace Impoint
      * logarithmic strains that has the form of small strains.
      *
      * A point remembers b - 1, the elastic left Cauchy-Green tensor without 1
-     * (tensor components; in 2D then zz, which plane strain keeps), and the
-     * equivalent plastic strain. F itself isn't looked at. What softens has the
-     * strength that it had at the start of the step.
+     * (tensor components; in 2D then zz, which plane strain keeps), the
+     * equivalent plastic strain, and the volume strain by which it was torn
+     * open at the apex. F itself isn't looked at. What softens has the strength
+     * that it had at the start of the step.
+     *
+     * If it closes gaps, what was torn open bears no pressure before it is
+     * closed (A. Tampubolon et al., Multi-species simulation of porous sand and
+     * water mixtures, ACM Trans. Graph. 36, 2017). Otherwise the volume of
+     * flowing sand grows for ever: each return to the apex forgets a bit.
      */
     template <int dim>
     class Elastoplastic : public Material<dim>
@@ -34,7 +40,8 @@ namespace Impoint
     public:
       Elastoplastic(const ElasticModuli                &moduli,
                     std::unique_ptr<const YieldSurface> surface,
-                    const Softening                    &softening);
+                    const Softening                    &softening,
+                    const bool                          closes_gaps);
 
       bool symmetric_tangent() const override
       {
@@ -48,7 +55,7 @@ namespace Impoint
 
       unsigned int n_history() const override
       {
-        return n_elastic + 1;
+        return n_elastic + 2;
       }
 
       /** The elastic state of @p initial, whether or not the material can bear
@@ -94,6 +101,7 @@ namespace Impoint
       VoigtVector<dim> trial_b(const Tensor<2, dim> &grad_increment,
                                const double         *old_history) const;
 
+      /** Elastic strains as b - 1; adds what has become plastic. */
       void store(const std::array<double, 3> &elastic,
                  const std::array<double, 3> &trial,
                  const Tensor<2, dim>        &directions,
@@ -105,6 +113,7 @@ namespace Impoint
       const ElasticModuli                       moduli;
       const std::unique_ptr<const YieldSurface> surface;
       const Softening                           softening;
+      const bool                                closes_gaps;
     };
   } // namespace Materials
 } // namespace Impoint

@@ -16,14 +16,16 @@ namespace Impoint
     void declare(ParameterFile &file);
     void check(const ParameterFile &file) const;
 
-    std::string kind     = "quasi-static"; // quasi-static|dynamic
-    double      end      = 1;
-    double      step     = 1;
-    double      smallest = 1e-3; // of the given step
-    double      beta     = 0.25;
-    double      gamma    = 0.5;
-    std::string mass     = "lumped";      // lumped|consistent
-    std::string initial  = "equilibrium"; // equilibrium|zero|expression
+    std::string kind            = "quasi-static"; // quasi-static|dynamic
+    double      end             = 1;
+    double      step            = 1;
+    double      smallest        = 1e-3; // of the given step
+    double      beta            = 0.25;
+    double      gamma           = 0.5;
+    double      spectral_radius = 1; // of the highest frequencies, a step
+    double      filter          = 0; // of unseen velocities [s]; 0: none
+    std::string mass            = "lumped";      // lumped|consistent
+    std::string initial         = "equilibrium"; // equilibrium|zero|expression
     bool        is_dynamic() const
     {
       return kind == "dynamic";
@@ -32,7 +34,8 @@ namespace Impoint
 
   /**
    * Mass, velocity and acceleration on the active nodes (P Eqs. 17-21) and
-   * Newmark's relation between a step's displacements and accelerations.
+   * Newmark's relation between a step's displacements and accelerations, in
+   * Bossak's variant: inertia is that of (1 - b) a_new + b a_old, b <= 0.
    */
   template <int dim>
   class Inertia
@@ -52,17 +55,25 @@ namespace Impoint
       return is_consistent;
     }
 
-    /** Factor alpha of the displacements in the acceleration. */
+    /** Factor alpha of the displacements in inertia. */
     double alpha() const
     {
-      return 1. / (beta * dt * dt);
+      return (1. - bossak) / (beta * dt * dt);
     }
 
-    /** Acceleration of unknown @p i for a displacement @p u of it. */
+    /** Acceleration at the end of the step of unknown @p i for a displacement
+     * @p u of it. */
     double acceleration(const unsigned int i, const double u) const
     {
-      return alpha() * u - velocities.local_element(i) / (beta * dt) -
+      return (u / dt - velocities.local_element(i)) / (beta * dt) -
              (0.5 / beta - 1.) * accelerations.local_element(i);
+    }
+
+    /** The acceleration that takes part in the balance of forces. */
+    double balanced_acceleration(const unsigned int i, const double u) const
+    {
+      return (1. - bossak) * acceleration(i, u) +
+             bossak * accelerations.local_element(i);
     }
 
     /** Velocity at the end of the step of a particle or node. */
@@ -70,6 +81,18 @@ namespace Impoint
     new_velocity(const double v, const double a_old, const double a_new) const
     {
       return v + dt * ((1. - gamma) * a_old + gamma * a_new);
+    }
+
+    /** Part of a point's unseen velocity that the step takes away; 0: there is
+     * no filter. */
+    double filtered_part() const;
+
+    /** Velocity of unknown @p i at the start of the step that the points'
+     * velocities are compared with to find what the grid doesn't see of them;
+     * if there is a filter. */
+    double seen_velocity(const unsigned int i) const
+    {
+      return seen_velocities.local_element(i);
     }
 
     /** Of active node @p i [kg]. */
@@ -84,10 +107,14 @@ namespace Impoint
                       const typename PointCloud<dim>::Range &range,
                       const ArrayView<const unsigned int>    nodes);
 
-    double beta, gamma;
+    void find_seen_velocities(const ActiveNodes<dim>    &active,
+                              const MaterialPoints<dim> &points);
+    void divide_by_mass(Vector &momenta) const;
+
+    double beta, gamma, bossak, filter;
     bool   is_consistent;
     double dt = 1;
-    Vector masses, velocities, accelerations;
+    Vector masses, velocities, accelerations, seen_velocities;
   };
 } // namespace Impoint
 
