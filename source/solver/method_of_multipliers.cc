@@ -67,13 +67,59 @@ namespace Impoint
 
 
 
+  /** The direction of the next update, @p step with @p forces from the @p
+   * present multipliers and delta: its effect is at right angles to that of all
+   * before. */
+  template <int dim>
+  typename MethodOfMultipliers<dim>::Direction
+  MethodOfMultipliers<dim>::next_direction(
+    const Vector                 &place,
+    const Multipliers            &present,
+    const Multipliers            &step,
+    const Vector                 &forces,
+    const double                  looser,
+    const std::vector<Direction> &directions)
+  {
+    Direction p;
+    p.multipliers = step;
+    p.forces      = forces;
+    Vector right(forces);
+    right *= -1.;
+    p.displacements.reinit(place);
+    solve(right, looser, p.displacements);
+
+    Multipliers trial = present;
+    add(trial, 1., p.multipliers);
+    set(trial);
+    Vector trial_place(place);
+    trial_place += p.displacements;
+    trial_place.update_ghost_values();
+    p.update = update(trial_place, p.effect);
+    add(p.update, -1., step);
+    p.effect -= forces;
+
+    for (const Direction &q : directions)
+      {
+        const double part = -(p.effect * q.effect) / q.effect.norm_sqr();
+        add(p.multipliers, part, q.multipliers);
+        add(p.update, part, q.update);
+        p.forces.add(part, q.forces);
+        p.displacements.add(part, q.displacements);
+        p.effect.add(part, q.effect);
+      }
+    return p;
+  }
+
+
+
   template <int dim>
   typename MethodOfMultipliers<dim>::Vector
   MethodOfMultipliers<dim>::find(const Vector &u,
-                                 const double  smallest,
+                                 const double  load,
                                  const double  reference,
                                  Vector       &delta)
   {
+    constexpr double       tolerance     = 1e-13;
     constexpr unsigned int max_solutions = 40;
     before                               = get();
     Multipliers present                  = before;
@@ -83,58 +129,46 @@ namespace Impoint
     place.update_ghost_values();
     Multipliers            step = update(place, forces);
     std::vector<Direction> directions;
-    double                 last = forces.l2_norm();
-    for (unsigned int n = 0; n < max_solutions && last > smallest; ++n)
+    double                 rest = forces.l2_norm();
+    largest                     = std::max({largest, load, rest});
+    while (directions.size() < max_solutions && rest > tolerance * largest)
       {
-        Direction p;
-        p.multipliers = step;
-        p.forces      = forces;
-        Vector right(forces);
-        right *= -1.;
-        p.displacements.reinit(u);
-        solve(right, std::max(1., reference / last), p.displacements);
-
-        Multipliers trial = present;
-        add(trial, 1., p.multipliers);
-        set(trial);
-        place = u;
-        place += delta;
-        place += p.displacements;
-        place.update_ghost_values();
-        p.update = update(place, p.effect);
-        add(p.update, -1., step);
-        p.effect -= forces;
-
-        for (const Direction &q : directions)
-          {
-            const double part = -(p.effect * q.effect) / q.effect.norm_sqr();
-            add(p.multipliers, part, q.multipliers);
-            add(p.update, part, q.update);
-            p.forces.add(part, q.forces);
-            p.displacements.add(part, q.displacements);
-            p.effect.add(part, q.effect);
-          }
-        const double length = p.effect.norm_sqr();
+        directions.push_back(next_direction(place,
+                                            present,
+                                            step,
+                                            forces,
+                                            std::max(1., reference / rest),
+                                            directions));
+        const Direction &p      = directions.back();
+        const double     length = p.effect.norm_sqr();
         if (length == 0)
           break;
         const double part = -(forces * p.effect) / length;
         add(present, part, p.multipliers);
         add(step, part, p.update);
         delta.add(part, p.displacements);
+        place.add(part, p.displacements);
         total.add(part, p.forces);
         forces.add(part, p.effect);
-        directions.push_back(std::move(p));
 
-        const double size  = forces.l2_norm();
-        const bool   stuck = size > 0.999 * last; // round-off
-        last               = size;
-        if (stuck)
-          break;
+        const double last = rest;
+        rest              = forces.l2_norm();
+        largest           = std::max(largest, total.l2_norm());
+        if (rest > 0.999 * last)
+          break; // round-off
       }
     set(present);
     after = present;
     delta.update_ghost_values();
     return total;
+  }
+
+
+
+  template <int dim>
+  void MethodOfMultipliers<dim>::begin_step()
+  {
+    largest = 0;
   }
 
 

@@ -11,9 +11,6 @@ namespace Impoint
 {
   namespace
   {
-    // Multipliers that change less of the forces are found.
-    constexpr double smallest_update = 1e-13;
-
     // Forces below this part of E h^(dim-1) are none.
     constexpr double smallest_force = 1e-13;
 
@@ -126,6 +123,7 @@ namespace Impoint
     inertia  = step_inertia;
     held     = conforming.held_nodes(active, start, end);
     scale    = 0;
+    multipliers.begin_step();
     problem.enforced.assign(active.n_nodes(), false);
     for (const auto &method : methods)
       if (method->is_active() && method->constrains())
@@ -338,10 +336,8 @@ namespace Impoint
 
     multiplier_forces.reinit(active.unknowns());
     if (is_augmented())
-      multiplier_forces = multipliers.find(u,
-                                           smallest_update * force_scale(),
-                                           right.l2_norm(),
-                                           delta);
+      multiplier_forces =
+        multipliers.find(u, external.l2_norm(), right.l2_norm(), delta);
   }
 
 

@@ -31,14 +31,18 @@ namespace Impoint
                         Enforcement::Methods<dim> &methods,
                         const Solve               &solve);
 
+    /** Forgets the size of forces. */
+    void begin_step();
+
     /**
      * Improves @p delta, the correction at @p u with the present multipliers,
-     * and these, until a further update changes the residual by less than
-     * @p smallest [N]. @p reference [N] is the right-hand side of delta.
-     * Returns what the new multipliers changed in the residual. Collective.
+     * and these, until a further update changes the residual by round-off of
+     * the forces in this step: @p load [N] and those of the multipliers. @p
+     * reference [N] is the right-hand side of delta. Returns what the new
+     * multipliers changed in the residual. Collective.
      */
     Vector find(const Vector &u,
-                const double  smallest,
+                const double  load,
                 const double  reference,
                 Vector       &delta);
 
@@ -61,6 +65,13 @@ namespace Impoint
      * forces. */
     Multipliers update(const Vector &place, Vector &forces);
 
+    Direction next_direction(const Vector                 &place,
+                             const Multipliers            &present,
+                             const Multipliers            &step,
+                             const Vector                 &forces,
+                             const double                  looser,
+                             const std::vector<Direction> &directions);
+
     Multipliers get() const;
     void        set(const Multipliers &values);
 
@@ -68,6 +79,7 @@ namespace Impoint
     Enforcement::Methods<dim> &methods;
     const Solve                solve;
     Multipliers                before, after;
+    double                     largest = 0; // force of this step [N]
   };
 } // namespace Impoint
 
