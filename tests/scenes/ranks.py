@@ -32,6 +32,17 @@ SCENES = {
     "tets": (HERE / "ranks_bar_3d.prm", ["Grid/Cells = tetrahedra"]),
     "falling block": (HERE / "ranks_falling_block.prm", []),
 }
+for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary"):
+    clamp = f"Boundaries/clamp/Enforcement = {method}"
+    SCENES[method] = ("quickstart.prm", [*COARSE, "Grid/Cells = triangles", clamp])
+    SCENES[f"{method}, hexes"] = (HERE / "ranks_bar_3d.prm", [
+        clamp, f"Boundaries/wall/Enforcement = {method}"])
+    if method == "implicit boundary":
+        # Round-off is that of displacements times the stiffness of the band.
+        for title in (method, f"{method}, hexes"):
+            SCENES[title][1].append("Boundaries/clamp/Band width = 1e-6")
+        SCENES[f"{method}, hexes"][1].append("Boundaries/wall/Band width = 1e-6")
+
 # Of the solver's way, not of its end.
 LEFT_OUT = {"Newton iterations", "linear iterations", "residual"}
 

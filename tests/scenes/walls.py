@@ -48,7 +48,15 @@ def footing():
 
 
 def funnel():
-    history = check("5.6-funnel.prm", 10, "top", ["Time/End time = 10"])
+    settings = ["Time/End time = 12"]
+    history = check("5.6-funnel.prm", 12, "top", settings)
+    multiplier = rows("5.6-funnel.prm", [
+        *settings, "Boundaries/top/Enforcement = lagrange multiplier"])
+    for row, other in zip(history, multiplier):
+        print(f"force at {4 * row['time']:.0f} mm: {row['force F_x']:.1f} N/mm, "
+              f"with multipliers {other['force F_x']:.1f} N/mm")
+        expect(abs(row["force F_x"] / other["force F_x"] - 1) < 0.05,
+               "the curved wall locks")
     for row in history:
         for place in ("bottom", "middle", "top"):
             expect(abs(row[f"edge_{place} u_x"] + 4 * row["time"]) < 1e-4,
