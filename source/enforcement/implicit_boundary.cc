@@ -98,6 +98,8 @@ namespace Impoint
     {
       Method<dim>::begin_step(step);
       states.assign(this->boundary->ranges().size(), CellState());
+      if (this->active_now && slip)
+        normals.reinit(this->condition.normals, *this, *step.active);
       if (this->active_now)
         for_active_ranges(*this,
                           *step.active,
@@ -132,9 +134,25 @@ namespace Impoint
       Tensor<1, dim> total = this->boundary->vector(b, slots.gap);
       if (slip)
         total = total[0] * outward;
+      condition.share.resize(n);
+      const double *N     = this->boundary->support(b);
+      const auto    nodes = this->current.active->nodes(
+        this->current.active->position(this->boundary->ranges()[r].cell));
       condition.gap =
-        condition.held * (total + this->displacement(b, n, u) -
-                          this->boundary->vector(b, slots.increment));
+        condition.held * (total - this->boundary->vector(b, slots.increment));
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          condition.share[a] =
+            N[a] *
+            (slip ?
+               outer_product(outward,
+                             normals.direction(*this->boundary, b, nodes[a])) :
+               one);
+          Tensor<1, dim> u_a;
+          for (unsigned int d = 0; d < dim; ++d)
+            u_a[d] = u[a * dim + d];
+          condition.gap += condition.share[a] * u_a;
+        }
       condition.traction =
         condition.held * (0.5 * state.filled * state.stress * normal) +
         inverse_width(r) * condition.acoustic * condition.gap;
@@ -173,12 +191,11 @@ namespace Impoint
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
           evaluate(r, b, n, system.u, condition);
-          const double  area = this->boundary->area(b);
-          const double *N    = this->boundary->support(b);
+          const double area = this->boundary->area(b);
           for (unsigned int a = 0; a < n; ++a)
             {
               const Tensor<1, dim> force =
-                area * (N[a] * condition.traction +
+                area * (transpose(condition.share[a]) * condition.traction +
                         transpose(condition.flux[a]) * condition.gap);
               for (unsigned int d = 0; d < dim; ++d)
                 system.residual[a * dim + d] += force[d];
@@ -188,11 +205,12 @@ namespace Impoint
           for (unsigned int a = 0; a < n; ++a)
             for (unsigned int c = 0; c < n; ++c)
               {
-                Tensor<2, dim> block =
-                  stiffness * N[a] * N[c] * condition.acoustic;
+                Tensor<2, dim> block = stiffness *
+                                       transpose(condition.share[a]) *
+                                       condition.acoustic * condition.share[c];
                 if (exact)
-                  block += N[a] * condition.flux[c] +
-                           N[c] * transpose(condition.flux[a]);
+                  block += transpose(condition.share[a]) * condition.flux[c] +
+                           transpose(condition.flux[a]) * condition.share[c];
                 double *to = system.matrix + (a * n + c) * dim * dim;
                 for (unsigned int i = 0; i < dim; ++i)
                   for (unsigned int j = 0; j < dim; ++j)

@@ -39,7 +39,7 @@ namespace Impoint
     double              factor         = 1e4;
     std::string         factor_unit    = "E/h";       // E/h|Pa/m
     std::string         superfluous    = "automatic"; // automatic|keep|remove
-    double              band_width     = 1e-8;        // [h]
+    double              band_width     = 1e-6;        // [h]
     bool                small_cut_rule = false;
     bool                releasing      = false;
     double              friction       = 0;          // of a slip boundary

@@ -2,7 +2,7 @@
 #define impoint_enforcement_implicit_boundary_h
 
 #include <impoint/base/voigt.h>
-#include <impoint/enforcement/enforcement.h>
+#include <impoint/enforcement/nodal_normals.h>
 
 #include <vector>
 
@@ -62,8 +62,9 @@ namespace Impoint
         Tensor<1, dim> gap;      // held part [m]
         Tensor<1, dim> traction; // on the wall [Pa]
 
-        // per node: held traction n.C of its displacement, weighted by W
-        std::vector<Tensor<2, dim>> flux;
+        // per node, of its displacement: the part of the gap, N_a or with slip
+        // N_a n x n_a; and the held traction n.C, weighted by W
+        std::vector<Tensor<2, dim>> share, flux;
       };
 
       CellState cell_state(const unsigned int r) const;
@@ -75,7 +76,8 @@ namespace Impoint
                          Condition         &condition) const;
 
       const bool             slip;
-      std::vector<CellState> states; // per range
+      NodalNormals<dim>      normals; // of a slip boundary
+      std::vector<CellState> states;  // per range
     };
   } // namespace Enforcement
 } // namespace Impoint
