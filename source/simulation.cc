@@ -181,7 +181,7 @@ namespace Impoint
         bool stop = signals.arrived();
         if (checkpoint_is_due(stop))
           write_checkpoint();
-        if (stop)
+        if (stop && time < end - 1e-9 * given)
           throw RunFailed("The run was told to stop by a signal, after step " +
                           std::to_string(counters.steps) +
                           "; 'impoint --resume " + folder.path() + "' goes on");
@@ -198,11 +198,11 @@ namespace Impoint
     std::ostringstream text;
     text << "step " << counters.steps + 1 << " at time " << time
          << " s with a step of " << failed << " s: " << reason;
-    ++counters.halved_steps;
     if (constant_load)
       throw RunFailed(text.str() +
                       ". Smaller steps would not help: no load depends on t. "
                       "Let it grow with time, e.g. Body force = 0; -9.81 * t");
+    ++counters.halved_steps;
     step_size = {0.5 * failed, 0};
     if (step_size.size < scene.time.smallest * scene.time.step)
       {

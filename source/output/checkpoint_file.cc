@@ -120,6 +120,22 @@ namespace Impoint
 
 
 
+    /** All but the newest two, and what killed runs left of others. */
+    void remove_old(const fs::path &folder)
+    {
+      std::error_code ignored; // then they stay
+      auto            files = checkpoints_in(folder);
+      files.erase(files.begin(),
+                  files.begin() + std::min<std::size_t>(2, files.size()));
+      for (const auto &entry : fs::directory_iterator(folder, ignored))
+        if (entry.path().extension() == ".part")
+          files.push_back(entry.path());
+      for (const auto &file : files)
+        fs::remove(file, ignored);
+    }
+
+
+
     /** The pieces of a file, nothing if it is not complete. */
     std::optional<std::vector<std::string>> read_pieces(const fs::path &path)
     {
@@ -183,9 +199,7 @@ namespace Impoint
       if (std::rename(part.c_str(), path.c_str()) != 0)
         throw cannot_write(path);
       to_disk(target.string());
-      auto files = checkpoints_in(target);
-      for (std::size_t i = 2; i < files.size(); ++i)
-        fs::remove(files[i]);
+      remove_old(target);
     });
   }
 

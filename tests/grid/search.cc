@@ -135,7 +135,8 @@ int main(int argc, char **argv)
   test<2>("distorted triangles",
           {box, square, distorted, "Grid/Cells = triangles"});
   test<3>("hexes", {box, cube});
-  test<3>("distorted hexes", {box, cube, distorted});
+  test<3>("turned hexes",
+          {box, cube, turned, "Grid/Axis = 1, 2, 3", shifted + "-0.3, 0.1, 0"});
   test<3>("refined hexes", {box, cube, refined});
-  test<3>("tets", {box, cube, "Grid/Cells = tetrahedra"});
+  test<3>("distorted tets", {box, cube, distorted, "Grid/Cells = tetrahedra"});
 }

@@ -33,7 +33,7 @@ BLOCK = [HERE / "ranks_falling_block.prm",
 BAR = [HERE / "ranks_bar_3d.prm", "--set", "Time/Step = 0.1",
        "--set", "Bodies/bar/Body force = 0; t; -5 * t",
        "--set", "Output/Checkpoint every = 1"]
-MULTIPLIERS = [*BAR, "--set",
+MULTIPLIERS = [*BAR, "--set", "Grid/Cells = tetrahedra", "--set",
                "Boundaries/clamp/Enforcement = lagrange multiplier"]
 RANDOM = random.Random(5)
 
