@@ -121,8 +121,11 @@ namespace Impoint
   {
     constexpr double       tolerance     = 1e-13;
     constexpr unsigned int max_solutions = 40;
-    before                               = get();
-    Multipliers present                  = before;
+    // A combination of multipliers that answers less than this part of itself
+    // is one of constraints that depend on each other, but for round-off.
+    constexpr double dependent = 1e-8;
+    before                     = get();
+    Multipliers present        = before;
     Vector      place(u), forces, total;
     total.reinit(u);
     place += delta;
@@ -141,7 +144,7 @@ namespace Impoint
                                             directions));
         const Direction &p      = directions.back();
         const double     length = p.effect.norm_sqr();
-        if (length == 0)
+        if (length <= dependent * dependent * p.forces.norm_sqr())
           break;
         const double part = -(forces * p.effect) / length;
         add(present, part, p.multipliers);
