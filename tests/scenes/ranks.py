@@ -30,6 +30,8 @@ SCENES = {
     "falling on splines": (HERE / "ranks_falling_block.prm",
                            ["Grid/Basis = quadratic spline"]),
     "tets": (HERE / "ranks_bar_3d.prm", ["Grid/Cells = tetrahedra"]),
+    "sand": ("penalty/4.2-granular-column.prm",
+             ["Time/End time = 0.03", "Output/Pictures every = 0"]),
     "falling block": (HERE / "ranks_falling_block.prm", []),
 }
 for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary"):
