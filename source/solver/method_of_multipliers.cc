@@ -120,10 +120,10 @@ namespace Impoint
                                  Vector       &delta)
   {
     constexpr double       tolerance     = 1e-13;
-    constexpr unsigned int max_solutions = 40;
+    constexpr unsigned int max_solutions = 100, most_idle = 6;
     // A combination of multipliers that answers less than this part of itself
     // is one of constraints that depend on each other, but for round-off.
-    constexpr double dependent = 1e-8;
+    constexpr double dependent = 1e-10;
     before                     = get();
     Multipliers present        = before;
     Vector      place(u), forces, total;
@@ -132,8 +132,9 @@ namespace Impoint
     place.update_ghost_values();
     Multipliers            step = update(place, forces);
     std::vector<Direction> directions;
-    double                 rest = forces.l2_norm();
-    largest                     = std::max({largest, load, rest});
+    unsigned int           n_idle = 0;
+    double                 rest   = forces.l2_norm();
+    largest                       = std::max({largest, load, rest});
     while (directions.size() < max_solutions && rest > tolerance * largest)
       {
         directions.push_back(next_direction(place,
@@ -157,7 +158,8 @@ namespace Impoint
         const double last = rest;
         rest              = forces.l2_norm();
         largest           = std::max(largest, total.l2_norm());
-        if (rest > 0.999 * last)
+        n_idle            = rest > 0.999 * last ? n_idle + 1 : 0;
+        if (n_idle == most_idle)
           break; // round-off
       }
     set(present);

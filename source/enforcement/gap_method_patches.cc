@@ -1,0 +1,152 @@
+#include <impoint/enforcement/gap_method.h>
+
+#include <algorithm>
+
+namespace Impoint
+{
+  namespace Enforcement
+  {
+    template <int dim>
+    void GapMethod<dim>::shape_values(const unsigned int r,
+                                      const unsigned int b,
+                                      const unsigned int n,
+                                      double            *N) const
+    {
+      const double *support = this->boundary->support(b);
+      std::copy(support, support + n, N);
+      if (!raises_small_values(r))
+        return;
+      double sum = 0;
+      for (unsigned int a = 0; a < n; ++a)
+        sum += N[a] = std::max(N[a], small_cut_value);
+      for (unsigned int a = 0; a < n; ++a)
+        N[a] /= sum;
+    }
+
+
+
+    /** Whether the particle pressed on the material at the end of the last
+     * step: then it keeps its gap. */
+    template <int dim>
+    bool GapMethod<dim>::is_closed(const unsigned int b) const
+    {
+      const auto          &slots = this->boundary->slots();
+      const Tensor<1, dim> held  = this->boundary->vector(b, slots.multiplier);
+      const Tensor<1, dim> gap   = this->boundary->vector(b, slots.gap);
+      if (normal_only)
+        return held[0] > 0 || gap[0] > 0;
+      const Tensor<1, dim> normal = this->boundary->vector(b, slots.normal);
+      return held * normal > 0 || gap * normal > 0;
+    }
+
+
+
+    template <int dim>
+    bool GapMethod<dim>::is_near(const unsigned int b) const
+    {
+      return !this->condition.releasing || distance[b] <= 0 || is_closed(b);
+    }
+
+
+
+    template <int dim>
+    bool GapMethod<dim>::is_in(const Patch &patch, const unsigned int b) const
+    {
+      return !patch.near_only || is_near(b);
+    }
+
+
+
+    /** Gap with the material where it is and the wall where it will be. */
+    template <int dim>
+    Tensor<1, dim> GapMethod<dim>::start_gap(const unsigned int b) const
+    {
+      const auto          &slots  = this->boundary->slots();
+      const Tensor<1, dim> normal = this->boundary->vector(b, slots.normal);
+      const Tensor<1, dim> wall   = this->boundary->vector(b, slots.increment);
+      Tensor<1, dim>       gap    = this->boundary->vector(b, slots.gap);
+      const double         away   = is_near(b) ? 0. : distance[b];
+      if (normal_only)
+        gap[0] -= normal * wall + away;
+      else
+        gap -= wall + away * normal;
+      return gap;
+    }
+
+
+
+    template <int dim>
+    void GapMethod<dim>::add_particle(const unsigned int r,
+                                      const unsigned int b,
+                                      const double       weight,
+                                      Patch             &patch) const
+    {
+      const auto nodes = this->current.active->nodes(
+        this->current.active->position(this->boundary->ranges()[r].cell));
+      double N[Patch::largest_support];
+      shape_values(r, b, nodes.size(), N);
+      patch.start_gap += weight * start_gap(b);
+      patch.multiplier += weight * multiplier[b];
+      patch.normal +=
+        weight * this->boundary->vector(b, this->boundary->slots().normal);
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        if (normal_only)
+          patch.rows[a] +=
+            weight * N[a] * normals.direction(*this->boundary, b, nodes[a]);
+        else
+          patch.values[a] += weight * N[a];
+    }
+
+
+
+    template <int dim>
+    typename GapMethod<dim>::Patch
+    GapMethod<dim>::make_patch(const unsigned int r,
+                               const unsigned int begin,
+                               const unsigned int end) const
+    {
+      Patch patch(normal_only,
+                  this->current.active->basis().n_nodes_of(
+                    this->boundary->ranges()[r].cell));
+      patch.begin = begin;
+      patch.end   = end;
+      for (unsigned int b = begin; b < end; ++b)
+        patch.near_only |= is_near(b);
+      for (unsigned int b = begin; b < end; ++b)
+        if (is_in(patch, b))
+          patch.area += this->boundary->area(b);
+      for (unsigned int b = begin; b < end; ++b)
+        if (is_in(patch, b))
+          add_particle(r, b, this->boundary->area(b) / patch.area, patch);
+      if (normal_only)
+        {
+          patch.normal    = Tensor<1, dim>();
+          patch.normal[0] = 1.;
+        }
+      else
+        patch.normal /= patch.normal.norm();
+
+      patch.law           = law(r, patch.area);
+      patch.law.releasing = this->condition.releasing;
+      if (this->condition.constraint == "slip" && !normal_only)
+        patch.law.friction = this->condition.friction;
+      return patch;
+    }
+
+
+
+    template <int dim>
+    typename GapMethod<dim>::Patch
+    GapMethod<dim>::alone(const unsigned int r, const unsigned int b) const
+    {
+      Patch patch(normal_only,
+                  this->current.active->basis().n_nodes_of(
+                    this->boundary->ranges()[r].cell));
+      add_particle(r, b, 1., patch);
+      return patch;
+    }
+
+    template class GapMethod<2>;
+    template class GapMethod<3>;
+  } // namespace Enforcement
+} // namespace Impoint
