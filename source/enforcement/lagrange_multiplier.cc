@@ -10,7 +10,7 @@ namespace Impoint
     {
       // In units of E/h. A linear solve reduces the gap by this factor, and
       // looses its reciprocal in digits of the material's stiffness.
-      constexpr double best_factor = 1e5;
+      constexpr double best_factor = 1e6;
     } // namespace
 
 
@@ -35,9 +35,8 @@ namespace Impoint
     {
       TractionLaw law;
       law.augmented = true;
-      law.gamma     = user_chooses_factor ?
-                        this->factor(r) :
-                        this->enlarge(best_factor * this->unit(r), r, area);
+      law.gamma =
+        user_chooses_factor ? this->factor(r) : best_factor * this->unit(r);
       return law;
     }
 
