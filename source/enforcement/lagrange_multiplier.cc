@@ -31,7 +31,7 @@ namespace Impoint
 
     template <int dim>
     TractionLaw LagrangeMultiplier<dim>::law(const unsigned int r,
-                                             const double       area) const
+                                             const double) const
     {
       TractionLaw law;
       law.augmented = true;
