@@ -78,7 +78,7 @@ def check_exact(method):
 check_table()
 check_angles()
 check_linear(90, range(1, 9))
-check_linear(30, range(1, 8))
+check_linear(30, range(1, 9))
 check_refinement(90)
 check_refinement(30)
 check_exact("lagrange multiplier")
