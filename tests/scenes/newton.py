@@ -34,7 +34,7 @@ RUNS = {
                             "lagrange multiplier"],
     "implicit boundary": IMPLICIT,
     "implicit boundary slip, corner": [
-        *CORNER, *IMPLICIT,
+        *CORNER, *IMPLICIT, "Boundaries/floor/Normals = particle",
         "Boundaries/floor/Polyline = 0 0; 1 0 | 0 1; 0 0"],
 }
 SLOPPY = ["Linear solver/Kind = iterative", "Linear solver/Tolerance = 0.1"]
