@@ -223,8 +223,9 @@ namespace Impoint
     bool changed = false;
     {
       ScopedSeconds timer(seconds.pattern);
-      changed =
-        active.reinit(points->cells(), Enforcement::cells(methods, start, end));
+      changed = active.reinit(points->cells(),
+                              Enforcement::cells(methods, start, end),
+                              [&]() { return system->find_links(start, end); });
     }
     // Whether a run went on or was resumed after a checkpoint must not show in
     // its last digits: both begin with a new factor.

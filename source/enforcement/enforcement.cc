@@ -48,7 +48,41 @@ namespace Impoint
 
 
     template <int dim>
+    void Method<dim>::find_links(const double            start,
+                                 const double            end,
+                                 const ActiveNodes<dim> &active,
+                                 Links                  &links)
+    {
+      first_link = links.size();
+      if (condition.is_active(start, end))
+        make_links(active, links);
+      last_link = links.size();
+    }
+
+
+
+    template <int dim>
+    void Method<dim>::make_links(const ActiveNodes<dim> &, Links &)
+    {}
+
+
+
+    template <int dim>
+    void Method<dim>::add_link(const unsigned int,
+                               const Strength,
+                               CellSystem &) const
+    {}
+
+
+
+    template <int dim>
     void Method<dim>::update_multipliers(const unsigned int, CellSystem &)
+    {}
+
+
+
+    template <int dim>
+    void Method<dim>::update_link_multipliers(const unsigned int, CellSystem &)
     {}
 
 

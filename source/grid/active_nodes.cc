@@ -21,16 +21,27 @@ namespace Impoint
 
   template <int dim>
   bool ActiveNodes<dim>::reinit(const std::vector<unsigned int> &material_cells,
-                                const std::vector<unsigned int> &boundary_cells)
+                                const std::vector<unsigned int> &boundary_cells,
+                                const std::function<Links()>    &find_links)
   {
-    const bool changed = fresh || material_cells != last_material ||
-                         boundary_cells != last_boundary;
-    if (!Utilities::MPI::max(int(changed), functions.grid().communicator()))
+    const MPI_Comm comm = functions.grid().communicator();
+    const bool     new_cells =
+      Utilities::MPI::max(int(fresh || material_cells != last_material ||
+                              boundary_cells != last_boundary),
+                          comm);
+    if (new_cells)
+      {
+        fresh         = false;
+        last_material = material_cells;
+        last_boundary = boundary_cells;
+        activate(material_cells, boundary_cells);
+      }
+    Links new_links;
+    if (find_links)
+      new_links = find_links();
+    if (!Utilities::MPI::max(int(new_cells || !(new_links == links)), comm))
       return false;
-    fresh         = false;
-    last_material = material_cells;
-    last_boundary = boundary_cells;
-    activate(material_cells, boundary_cells);
+    links = new_links;
     number();
     build_pattern();
     return true;
@@ -61,8 +72,8 @@ namespace Impoint
 
 
   template <int dim>
-  void
-  ActiveNodes<dim>::mark_nodes_of(const std::vector<unsigned int> &of_cells)
+  template <typename Cells>
+  void ActiveNodes<dim>::mark_nodes_of(const Cells &of_cells)
   {
     for (const unsigned int c : of_cells)
       for (const unsigned int node : functions.nodes(c))
@@ -103,9 +114,6 @@ namespace Impoint
   {
     for (const unsigned int c : cells)
       positions[c] = BackgroundGrid<dim>::nowhere;
-    for (const unsigned int node : grid_nodes)
-      compact_of[node] = BackgroundGrid<dim>::nowhere;
-
     cells      = material_cells;
     n_material = cells.size();
     for (unsigned int k = 0; k < n_material; ++k)
@@ -149,7 +157,11 @@ namespace Impoint
     const MPI_Comm     comm = functions.grid().communicator();
     const unsigned int me   = Utilities::MPI::this_mpi_process(comm);
 
+    for (const unsigned int node : grid_nodes)
+      compact_of[node] = BackgroundGrid<dim>::nowhere;
     mark_nodes_of(cells);
+    for (unsigned int l = 0; l < links.size(); ++l)
+      mark_nodes_of(links.cells(l));
     const std::vector<unsigned int> active = marks.members();
     const auto questions = by_foreign_owner(functions, active);
     std::map<unsigned int, Indices> asked;
@@ -210,32 +222,74 @@ namespace Impoint
 
 
 
+  /** Appends the nodes of the links: of their first cell in its order, then
+   * what the next have beside. */
   template <int dim>
-  void ActiveNodes<dim>::list_cells_of_nodes()
+  void ActiveNodes<dim>::list_nodes_of_links()
+  {
+    std::vector<unsigned int> last(n_nodes(), BackgroundGrid<dim>::nowhere);
+    for (unsigned int l = 0; l < links.size(); ++l)
+      {
+        for (const unsigned int c : links.cells(l))
+          for (const unsigned int node : functions.nodes(c))
+            if (last[compact_of[node]] != l)
+              {
+                last[compact_of[node]] = l;
+                cell_nodes.push_back(compact_of[node]);
+              }
+        first_node.push_back(cell_nodes.size());
+      }
+  }
+
+
+
+  template <int dim>
+  void ActiveNodes<dim>::list_groups_of_nodes()
   {
     first_node.assign(1, 0);
-    first_block.assign(1, 0);
     cell_nodes.clear();
-    first_visit.assign(n_nodes() + 1, 0);
     for (const unsigned int c : cells)
       {
-        const unsigned int n = functions.n_nodes_of(c);
         for (const unsigned int node : functions.nodes(c))
-          {
-            cell_nodes.push_back(compact_of[node]);
-            ++first_visit[cell_nodes.back() + 1];
-          }
+          cell_nodes.push_back(compact_of[node]);
         first_node.push_back(cell_nodes.size());
-        first_block.push_back(first_block.back() + n * n);
       }
+    if (links.size() > 0)
+      list_nodes_of_links();
+
+    first_block.assign(1, 0);
+    for (unsigned int k = 0; k < n_groups(); ++k)
+      first_block.push_back(first_block.back() +
+                            nodes(k).size() * nodes(k).size());
+    first_visit.assign(n_nodes() + 1, 0);
+    for (const unsigned int node : cell_nodes)
+      ++first_visit[node + 1];
     std::partial_sum(first_visit.begin(),
                      first_visit.end(),
                      first_visit.begin());
     visits.resize(cell_nodes.size());
     std::vector<std::size_t> next(first_visit.begin(), first_visit.end() - 1);
-    for (unsigned int k = 0; k < cells.size(); ++k)
+    for (unsigned int k = 0; k < n_groups(); ++k)
       for (unsigned int b = 0; b < nodes(k).size(); ++b)
         visits[next[nodes(k)[b]]++] = {k, b};
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int> ActiveNodes<dim>::places(const unsigned int k,
+                                                     const unsigned int c) const
+  {
+    const auto                group = nodes(k);
+    std::vector<unsigned int> result;
+    for (const unsigned int node : functions.nodes(c))
+      {
+        const auto place =
+          std::find(group.begin(), group.end(), compact_of[node]);
+        Assert(place != group.end(), ExcInternalError());
+        result.push_back(place - group.begin());
+      }
+    return result;
   }
 
 
@@ -245,7 +299,7 @@ namespace Impoint
   template <int dim>
   void ActiveNodes<dim>::build_pattern()
   {
-    list_cells_of_nodes();
+    list_groups_of_nodes();
     auto &row_start = block_pattern.row_start;
     auto &columns   = block_pattern.columns;
     row_start.assign(n_nodes() + 1, 0);
@@ -255,7 +309,7 @@ namespace Impoint
         last[i]            = i;
         std::size_t length = 1;
         for (std::size_t v = first_visit[i]; v < first_visit[i + 1]; ++v)
-          for (const unsigned int j : nodes(visits[v].cell))
+          for (const unsigned int j : nodes(visits[v].group))
             if (last[j] != i)
               {
                 last[j] = i;
@@ -281,12 +335,13 @@ namespace Impoint
         couple(j, j);
         for (std::size_t v = first_visit[j]; v < first_visit[j + 1]; ++v)
           {
-            const auto    in_cell = nodes(visits[v].cell);
-            unsigned int *to = scatter_map.data() + first_block[visits[v].cell];
-            for (unsigned int a = 0; a < in_cell.size(); ++a)
+            const auto    group = nodes(visits[v].group);
+            unsigned int *to =
+              scatter_map.data() + first_block[visits[v].group];
+            for (unsigned int a = 0; a < group.size(); ++a)
               {
-                couple(in_cell[a], j);
-                to[a * in_cell.size() + visits[v].node] = place[in_cell[a]];
+                couple(group[a], j);
+                to[a * group.size() + visits[v].node] = place[group[a]];
               }
           }
       }

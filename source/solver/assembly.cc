@@ -20,6 +20,17 @@ namespace Impoint
 
 
   template <int dim>
+  Links Assembly<dim>::find_links(const double start, const double end)
+  {
+    Links links;
+    for (const auto &method : methods)
+      method->find_links(start, end, active, links);
+    return links;
+  }
+
+
+
+  template <int dim>
   void Assembly<dim>::new_active_set()
   {
     empty_cells.reinit();
@@ -103,7 +114,7 @@ namespace Impoint
 
 
 
-  /** Makes @p system the empty one of active cell k, at its cell_u. */
+  /** Makes @p system the empty one of group k, at its cell_u. */
   template <int dim>
   void Assembly<dim>::begin_cell(const unsigned int k,
                                  const bool         tangent_wanted,
@@ -168,12 +179,37 @@ namespace Impoint
 
 
 
+  /** Adds contribute(strength, system) to group k. */
+  template <int dim>
+  template <typename Function>
+  void Assembly<dim>::add_boundary(const unsigned int k,
+                                   const Vector      &u,
+                                   const bool         tangent_wanted,
+                                   const Function    &contribute)
+  {
+    CellSystem system;
+    gather(k, u, cell_u);
+    if (tangent_wanted && problem->has_moderate)
+      {
+        begin_cell(k, true, system);
+        contribute(Enforcement::Strength::moderate, system);
+        scatter(k, problem->moderate);
+      }
+    begin_cell(k, tangent_wanted, system);
+    contribute(Enforcement::Strength::exact, system);
+    scatter_residual(k);
+    if (tangent_wanted)
+      scatter(k, problem->matrix);
+  }
+
+
+
   template <int dim>
   void Assembly<dim>::assemble_boundaries(const Vector &u,
                                           const bool    tangent_wanted,
                                           const Part    part)
   {
-    CellSystem system;
+    using Enforcement::Strength;
     for (const auto &method : methods)
       {
         if (!method->is_active() ||
@@ -182,18 +218,21 @@ namespace Impoint
           continue;
         Enforcement::for_active_ranges(
           *method, active, [&](const unsigned int r, const unsigned int k) {
-            gather(k, u, cell_u);
-            if (tangent_wanted && problem->has_moderate)
-              {
-                begin_cell(k, true, system);
-                method->add(r, Enforcement::Strength::moderate, system);
-                scatter(k, problem->moderate);
-              }
-            begin_cell(k, tangent_wanted, system);
-            method->add(r, Enforcement::Strength::exact, system);
-            scatter_residual(k);
-            if (tangent_wanted)
-              scatter(k, problem->matrix);
+            add_boundary(k,
+                         u,
+                         tangent_wanted,
+                         [&](const Strength strength, CellSystem &system) {
+                           method->add(r, strength, system);
+                         });
+          });
+        Enforcement::for_links(
+          *method, active, [&](const unsigned int l, const unsigned int k) {
+            add_boundary(k,
+                         u,
+                         tangent_wanted,
+                         [&](const Strength strength, CellSystem &system) {
+                           method->add_link(l, strength, system);
+                         });
           });
       }
   }
@@ -294,15 +333,24 @@ namespace Impoint
   {
     rest.reinit(active.unknowns());
     CellSystem system;
+    const auto update = [&](const unsigned int k, const auto &add_change) {
+      gather(k, u, cell_u);
+      begin_cell(k, false, system);
+      add_change();
+      scatter_residual(k);
+    };
     for (const auto &method : methods)
       if (method->is_active() && method->augmented())
-        Enforcement::for_active_ranges(
-          *method, active, [&](const unsigned int r, const unsigned int k) {
-            gather(k, u, cell_u);
-            begin_cell(k, false, system);
-            method->update_multipliers(r, system);
-            scatter_residual(k);
-          });
+        {
+          Enforcement::for_active_ranges(
+            *method, active, [&](const unsigned int r, const unsigned int k) {
+              update(k, [&]() { method->update_multipliers(r, system); });
+            });
+          Enforcement::for_links(
+            *method, active, [&](const unsigned int l, const unsigned int k) {
+              update(k, [&]() { method->update_link_multipliers(l, system); });
+            });
+        }
     rest.compress(VectorOperation::add);
     rest.zero_out_ghost_values();
     change = rest;

@@ -36,7 +36,8 @@ namespace Impoint
      * One nonconforming boundary and how its condition is imposed. A new
      * method is one file and one line in create().
      *
-     * All methods contribute cell by cell, on the cells of their particles.
+     * All methods contribute cell by cell, on the cells of their particles, or
+     * on links, which reach beyond a cell (see ActiveNodes).
      */
     template <int dim>
     class Method
@@ -74,6 +75,29 @@ namespace Impoint
                        const Strength     strength,
                        CellSystem        &system) const = 0;
 
+      /** Makes its links for a step from @p start to @p end, of the cells that
+       * are active now, behind those that are there. Collective. */
+      void find_links(const double            start,
+                      const double            end,
+                      const ActiveNodes<dim> &active,
+                      Links                  &links);
+
+      /** Places among all links of the first of its links and behind the last.
+       */
+      unsigned int begin_link() const
+      {
+        return first_link;
+      }
+      unsigned int end_link() const
+      {
+        return last_link;
+      }
+
+      /** Adds its link @p l (0: the first it made). */
+      virtual void add_link(const unsigned int l,
+                            const Strength     strength,
+                            CellSystem        &system) const;
+
       /** Whether add() with a matrix makes the tangent stiffer, so that the
        * preconditioner has to know these cells. */
       virtual bool constrains() const
@@ -103,6 +127,8 @@ namespace Impoint
       /** New multipliers from the gaps at the displacements of @p system, to
        * whose residual it adds what that changes. */
       virtual void update_multipliers(const unsigned int r, CellSystem &system);
+      virtual void update_link_multipliers(const unsigned int l,
+                                           CellSystem        &system);
 
       /** The multipliers of the iterate as numbers in an order of the method's
        * own; none without them. */
@@ -131,6 +157,9 @@ namespace Impoint
       bool moves() const;
 
     protected:
+      /** Appends what find_links() asks for. Collective. */
+      virtual void make_links(const ActiveNodes<dim> &active, Links &links);
+
       /** Displacement of the material at particle @p b. */
       Tensor<1, dim> displacement(const unsigned int b,
                                   const unsigned int n,
@@ -141,6 +170,9 @@ namespace Impoint
       std::unique_ptr<BoundaryParticles<dim>> boundary;
       Step<dim>                               current;
       bool                                    active_now = false;
+
+    private:
+      unsigned int first_link = 0, last_link = 0;
     };
 
     template <int dim>
@@ -160,6 +192,17 @@ namespace Impoint
           if (k != BackgroundGrid<dim>::nowhere)
             function(r, k);
         }
+    }
+
+    /** Calls function(l, k) for the links l of @p method, k being their group
+     * of nodes. */
+    template <int dim, typename Function>
+    void for_links(const Method<dim>      &method,
+                   const ActiveNodes<dim> &active,
+                   const Function         &function)
+    {
+      for (unsigned int l = method.begin_link(); l < method.end_link(); ++l)
+        function(l - method.begin_link(), active.link(l));
     }
 
     /** This rank's cells with particles of the methods that act from @p start

@@ -40,7 +40,11 @@ namespace Impoint
     /** Terms that act in material cells, added once. */
     void add_term(std::unique_ptr<Term<dim>> term);
 
-    /** After the set of active cells changed. */
+    /** What reaches beyond a cell in a step from @p start to @p end, of the
+     * cells that are active now. Collective. */
+    Links find_links(const double start, const double end);
+
+    /** After the set of active cells or links changed. */
     void new_active_set();
 
     /** After points changed their cells: finds the cells that have too few of
@@ -62,7 +66,7 @@ namespace Impoint
                     LinearProblem<dim> &problem,
                     Vector             &residual);
 
-    /** Displacements of active cell @p k's nodes. */
+    /** Displacements of the nodes of group @p k. */
     void gather(const unsigned int   k,
                 const Vector        &u,
                 std::vector<double> &cell_u) const;
@@ -81,6 +85,11 @@ namespace Impoint
     void begin_cell(const unsigned int k,
                     const bool         tangent_wanted,
                     CellSystem        &system);
+    template <typename Function>
+    void add_boundary(const unsigned int k,
+                      const Vector      &u,
+                      const bool         tangent_wanted,
+                      const Function    &contribute);
     void add_inertia(const Vector &u, const bool tangent_wanted);
     void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
     void scatter_residual(const unsigned int k);
@@ -98,7 +107,7 @@ namespace Impoint
     const Inertia<dim> *inertia = nullptr;
     Vector              rest;
 
-    // of the cell at work
+    // of the group at work
     std::vector<double> cell_u, cell_residual, cell_matrix;
   };
 } // namespace Impoint

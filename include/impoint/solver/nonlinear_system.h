@@ -35,7 +35,13 @@ namespace Impoint
     /** Terms that act in material cells, added once. */
     void add_term(std::unique_ptr<Term<dim>> term);
 
-    /** After the set of active cells changed. */
+    /** See Assembly. */
+    Links find_links(const double start, const double end)
+    {
+      return assembly.find_links(start, end);
+    }
+
+    /** After the set of active cells or links changed. */
     void new_active_set();
 
     /** After points changed their cells: which cells have too few of them. */
