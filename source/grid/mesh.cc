@@ -118,12 +118,15 @@ namespace Impoint
                             Words::suggestion(generator, names, "There are"));
         return;
       }
-    for (const std::string entry : {"Generator", "Arguments"})
-      if (scene.is_set(section + "/" + entry))
+    // A scene that includes another one empties the entries of that one.
+    for (const auto &[entry, value] :
+         {std::pair("Generator", generator), std::pair("Arguments", arguments)})
+      if (scene.is_set(section + "/" + entry) && !value.empty())
         throw scene.error(section + "/" + entry,
-                          "both a mesh file and the entry '" + entry +
-                            "' are given",
-                          "Take one of them away.");
+                          "both a mesh file and the entry '" +
+                            std::string(entry) + "' are given",
+                          "Take one of them away, or set it to nothing where "
+                          "an included scene gives it.");
     const std::string name    = scene.absolute(section + "/File");
     const auto        endings = mesh_file_endings();
     const std::string ending =

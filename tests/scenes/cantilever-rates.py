@@ -32,6 +32,12 @@ def main():
         _, last = errors(kind, clamp("penalty", 1e2), SCENE + name, TIP)
         expect(1.9 <= last <= 2.5, f"kind {kind}: penalty at 1e2")
 
+    values = [abs(tip(SCENE + "-unstructured",
+                      [f"Grid/Refinements = {n}", f"Bodies/beam/Mesh/Refinements = {n}"])
+                  / TIP - 1) for n in (2, 3)]
+    print("mesh file:", values)
+    expect(1.9 <= rate(*values) <= 2.5, f"triangles of a mesh file: {values}")
+
     # Each particle holds its place: on triangles the clamp locks.
     for factor in (1e4, 1e8):
         _, last = errors("c", clamp("penalty", factor), SCENE + KINDS["c"], TIP)

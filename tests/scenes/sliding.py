@@ -17,11 +17,14 @@ RUNS = {
     "b, turned squares": (TWO_D + "-rotated", COARSE_2D),
     "c, triangles": (TWO_D + "-triangles", COARSE_2D),
     "d, unstructured triangles": (TWO_D + "-distorted", COARSE_2D),
+    "d, triangles of a mesh file": (TWO_D + "-unstructured", COARSE_2D),
     "d, beta = 1e18 Pa/m": ("penalty/4.3-sliding-cylinder", ["Time/Step = 0.02"]),
     "hexahedra": (THREE_D, COARSE_3D),
     "tetrahedra": (THREE_D + "-tetrahedra", COARSE_3D),
     "unstructured tetrahedra": (THREE_D + "-distorted", COARSE_3D),
-    "the same, beta = 1e18 Pa/m": ("penalty/4.3-sliding-cylinder-3d", []),
+    "tetrahedra of a mesh file": (THREE_D + "-unstructured",
+                                  ["Time/Step = 0.05", "Grid/Refinements = 0"]),
+    "unstructured tetrahedra, beta = 1e18 Pa/m": ("penalty/4.3-sliding-cylinder-3d", []),
 }
 
 
