@@ -1,6 +1,7 @@
 #include <impoint/solver/algebraic_multigrid.h>
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/trilinos_precondition.h>
 
 #include <Epetra_CrsMatrix.h>
@@ -19,12 +20,19 @@ namespace Impoint
   {
     static constexpr unsigned int n_modes = dim * (dim + 1) / 2;
 
-    Implementation(const unsigned int n_unknowns)
-      : map(static_cast<int>(n_unknowns), 0, Epetra_MpiComm(MPI_COMM_SELF))
+    Implementation(const unsigned int n_nodes, const NodeExchange &nodes)
+      : nodes(nodes)
+      , n_nodes(n_nodes)
+      , map(-1,
+            static_cast<int>(n_nodes * dim),
+            0,
+            Epetra_MpiComm(nodes.communicator()))
     {}
 
     void set_modes(const std::vector<Point<dim>> &points);
 
+    const NodeExchange                nodes;
+    const unsigned int                n_nodes; // owned
     Epetra_Map                        map;
     std::unique_ptr<Epetra_CrsMatrix> matrix;
     TrilinosWrappers::PreconditionAMG hierarchy;
@@ -36,15 +44,17 @@ namespace Impoint
     const std::vector<Point<dim>> &points)
   {
     // about the centre, so that rotations and translations are comparable
-    Point<dim> centre;
-    for (const Point<dim> &point : points)
-      centre += point / static_cast<double>(points.size());
+    Tensor<1, dim> centre;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      centre += points[node];
+    centre = Utilities::MPI::sum(centre, nodes.communicator()) /
+             Utilities::MPI::sum(double(n_nodes), nodes.communicator());
 
-    const std::size_t size = points.size() * dim;
+    const std::size_t size = std::size_t(n_nodes) * dim;
     modes.assign(n_modes * size, 0.);
-    for (std::size_t node = 0; node < points.size(); ++node)
+    for (std::size_t node = 0; node < n_nodes; ++node)
       {
-        const Tensor<1, dim> arm  = points[node] - centre;
+        const Tensor<1, dim> arm  = Tensor<1, dim>(points[node]) - centre;
         double              *mode = &modes[node * dim];
         for (unsigned int d = 0; d < dim; ++d, mode += size)
           mode[d] = 1;
@@ -60,8 +70,9 @@ namespace Impoint
   template <int dim>
   AlgebraicMultigrid<dim>::AlgebraicMultigrid(
     const BlockPattern            &pattern,
+    const NodeExchange            &nodes,
     const std::vector<Point<dim>> &points)
-    : implementation(std::make_unique<Implementation>(pattern.n_rows() * dim))
+    : implementation(std::make_unique<Implementation>(pattern.n_rows(), nodes))
   {
     implementation->set_modes(points);
   }
@@ -77,8 +88,10 @@ namespace Impoint
     for (std::size_t row = 0; row < n_entries.size(); ++row)
       n_entries[row] =
         (pattern.row_start[row / dim + 1] - pattern.row_start[row / dim]) * dim;
-    auto copy = std::make_unique<Epetra_CrsMatrix>(
-      Copy, implementation->map, implementation->map, n_entries.data(), true);
+    auto copy = std::make_unique<Epetra_CrsMatrix>(Copy,
+                                                   implementation->map,
+                                                   n_entries.data(),
+                                                   true);
 
     std::vector<int>    columns;
     std::vector<double> values;
@@ -92,11 +105,15 @@ namespace Impoint
                ++k)
             for (unsigned int d = 0; d < dim; ++d)
               {
-                columns.push_back(pattern.columns[k] * dim + d);
+                columns.push_back(
+                  implementation->nodes.global_number(pattern.columns[k]) *
+                    dim +
+                  d);
                 values.push_back(
                   matrix.values[(k * dim + component) * dim + d]);
               }
-          copy->InsertGlobalValues(static_cast<int>(row * dim + component),
+          copy->InsertGlobalValues(implementation->map.GID(
+                                     static_cast<int>(row * dim + component)),
                                    columns.size(),
                                    values.data(),
                                    columns.data());

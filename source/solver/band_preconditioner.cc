@@ -1,6 +1,7 @@
 #include <impoint/solver/algebraic_multigrid.h>
 #include <impoint/solver/band_preconditioner.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/types.h>
 
 #include <algorithm>
@@ -42,25 +43,63 @@ namespace Impoint
       return largest;
     }
 
+    /** Ghosts as their owners mark them. */
+    void share(const NodeExchange &nodes, std::vector<char> &marks)
+    {
+      std::vector<double> values(marks.begin(), marks.end());
+      nodes.update(values);
+      marks.assign(values.begin(), values.end());
+    }
+
+    /** Patterns are symmetric: neighbours of the core have it as a neighbour,
+     * ghosts among them. */
     std::vector<char> with_neighbours(const BlockPattern      &pattern,
+                                      const NodeExchange      &nodes,
                                       const std::vector<char> &core)
     {
       std::vector<char> grown = core;
       for (unsigned int row = 0; row < pattern.n_rows(); ++row)
-        if (core[row])
-          for (std::size_t k = pattern.row_start[row];
-               k < pattern.row_start[row + 1];
-               ++k)
-            grown[pattern.columns[k]] = true;
+        for (std::size_t k = pattern.row_start[row];
+             k < pattern.row_start[row + 1];
+             ++k)
+          if (core[pattern.columns[k]])
+            grown[row] = true;
+      share(nodes, grown);
       return grown;
     }
 
-    /** The nodes that are (not) marked. */
+    /** The median over all ranks of what is not negative, to a thousandth; 0 of
+     * nothing. */
+    double median(const std::vector<double> &values, const MPI_Comm comm)
+    {
+      constexpr double accuracy = 1e-3;
+      const auto       n_below  = [&](const double limit) {
+        const std::size_t n =
+          std::count_if(values.begin(), values.end(), [&](const double value) {
+            return value >= 0 && value < limit;
+          });
+        return Utilities::MPI::sum(n, comm);
+      };
+      double low = 0, high = 0;
+      for (const double value : values)
+        high = std::max(high, value);
+      high                   = Utilities::MPI::max(high, comm);
+      const std::size_t half = n_below(2 * high) / 2;
+      while (high - low > accuracy * high)
+        {
+          const double middle                   = (low + high) / 2;
+          (n_below(middle) > half ? high : low) = middle;
+        }
+      return high;
+    }
+
+    /** Those of the first @p n nodes that are (not) marked. */
     std::vector<unsigned int> nodes_where(const std::vector<char> &marks,
-                                          const bool               marked)
+                                          const bool               marked,
+                                          const std::size_t        n)
     {
       std::vector<unsigned int> nodes;
-      for (unsigned int node = 0; node < marks.size(); ++node)
+      for (unsigned int node = 0; node < n; ++node)
         if ((marks[node] != 0) == marked)
           nodes.push_back(node);
       return nodes;
@@ -117,83 +156,101 @@ namespace Impoint
   }
 
   template <int dim>
-  bool BandPreconditioner<dim>::serves(const LinearProblem<dim> &problem) const
+  bool BandPreconditioner<dim>::everywhere(const bool here) const
   {
-    return partitioned && enforced == problem.enforced;
+    return Utilities::MPI::min(int(here), nodes.communicator());
   }
 
   template <int dim>
-  void BandPreconditioner<dim>::find_slivers(const BlockMatrix<dim> &matrix,
-                                             const bool              splines)
+  bool BandPreconditioner<dim>::serves(const LinearProblem<dim> &problem) const
+  {
+    return partitioned && everywhere(enforced == problem.enforced);
+  }
+
+  template <int dim>
+  std::vector<char>
+  BandPreconditioner<dim>::find_slivers(const BlockMatrix<dim> &matrix,
+                                        const bool              splines) const
   {
     std::vector<double> diagonal(matrix.pattern->n_rows());
     for (unsigned int node = 0; node < diagonal.size(); ++node)
       diagonal[node] = free_diagonal(matrix, node);
 
-    std::vector<double> free;
-    std::copy_if(diagonal.begin(),
-                 diagonal.end(),
-                 std::back_inserter(free),
-                 [](const double entry) { return entry >= 0; });
-    double threshold = 0;
-    if (!free.empty())
-      {
-        const auto median = free.begin() + free.size() / 2;
-        std::nth_element(free.begin(), median, free.end());
-        threshold =
-          (splines ? spline_sliver_factor : 1.) * sliver_threshold * *median;
-      }
-    slivers.resize(diagonal.size());
+    const double threshold = (splines ? spline_sliver_factor : 1.) *
+                             sliver_threshold *
+                             median(diagonal, nodes.communicator());
+    std::vector<char> found(diagonal.size() + nodes.n_ghosts());
     for (unsigned int node = 0; node < diagonal.size(); ++node)
-      slivers[node] = diagonal[node] >= 0 && diagonal[node] < threshold;
+      found[node] = diagonal[node] >= 0 && diagonal[node] < threshold;
+    share(nodes, found);
+    return found;
   }
 
   template <int dim>
   void BandPreconditioner<dim>::partition(const LinearProblem<dim> &problem)
   {
     const unsigned int n_nodes = problem.pattern.n_rows();
+    const std::size_t  n_local = slivers.size();
     std::vector<char>  core    = slivers;
-    for (unsigned int node = 0; node < n_nodes; ++node)
+    for (unsigned int node = 0; node < n_local; ++node)
       if (enforced[node] ||
           (!problem.regularisation.empty() && problem.regularisation[node] > 0))
         core[node] = true;
-    const std::vector<char> in_band = with_neighbours(problem.pattern, core);
+    const std::vector<char> in_band =
+      with_neighbours(problem.pattern, nodes, core);
 
-    const std::vector<unsigned int> band_nodes = nodes_where(in_band, true);
+    const std::vector<unsigned int> band_nodes =
+      nodes_where(in_band, true, n_nodes);
     band.new_pattern(problem.pattern,
                      band_nodes,
-                     positions_in(band_nodes, n_nodes));
-    if (!band_nodes.empty())
-      band_factor.new_pattern(band.pattern);
+                     positions_in(nodes_where(in_band, true, n_local),
+                                  n_local));
+    has_band = !everywhere(band_nodes.empty());
+    if (has_band)
+      band_factor.new_pattern(band.pattern, nodes.select(in_band));
 
-    std::vector<unsigned int> outside(n_nodes, left_out);
-    for (unsigned int node = 0; node < n_nodes; ++node)
+    std::vector<unsigned int> outside(n_local, left_out);
+    for (unsigned int node = 0; node < n_local; ++node)
       if (!in_band[node])
         outside[node] = node;
     coupling.new_pattern(problem.pattern, band_nodes, outside);
 
     v_cycle.reset();
     v_cycle_name.clear();
-    const std::vector<unsigned int> outer_nodes = nodes_where(slivers, false);
-    if (band_nodes.size() == n_nodes)
-      return;
+    if (!everywhere(band_nodes.size() == n_nodes))
+      make_v_cycle(problem);
+  }
+
+  template <int dim>
+  void BandPreconditioner<dim>::make_v_cycle(const LinearProblem<dim> &problem)
+  {
+    const std::size_t               n_local = slivers.size();
+    const std::vector<unsigned int> local =
+      nodes_where(slivers, false, n_local);
     outer.new_pattern(problem.pattern,
-                      outer_nodes,
-                      positions_in(outer_nodes, n_nodes));
-    if (problem.lattice.empty())
+                      nodes_where(slivers, false, problem.pattern.n_rows()),
+                      positions_in(local, n_local));
+    std::vector<char> kept(n_local);
+    for (unsigned int node = 0; node < n_local; ++node)
+      kept[node] = !slivers[node];
+    const NodeExchange outer_nodes = nodes.select(kept);
+    if (problem.lines.empty())
       {
         v_cycle_name = "algebraic multigrid";
         v_cycle      = std::make_unique<AlgebraicMultigrid<dim>>(
-          outer.pattern, select_nodes(problem.points, outer_nodes));
+          outer.pattern, outer_nodes, select_nodes(problem.points, local));
       }
     else
       {
         v_cycle_name = "geometric multigrid";
-        v_cycle      = std::make_unique<Multigrid<dim>>(outer.pattern,
-                                                   select_nodes(problem.lattice,
-                                                                outer_nodes),
-                                                   problem.lines);
+        v_cycle =
+          std::make_unique<Multigrid<dim>>(outer.pattern,
+                                           outer_nodes,
+                                           select_nodes(problem.lattice, local),
+                                           problem.lines);
       }
+    outer_right.resize(local.size() * dim);
+    outer_solution.resize(local.size() * dim);
   }
 
   template <int dim>
@@ -202,28 +259,32 @@ namespace Impoint
   {
     const BlockMatrix<dim> &moderate =
       problem.has_moderate ? problem.moderate : problem.matrix;
-    const std::vector<char> old_slivers = slivers;
-    find_slivers(moderate,
-                 !problem.lines.empty() && problem.lines[0].degree > 1);
-    if (!serves(problem) || slivers != old_slivers)
+    nodes = problem.nodes;
+    const std::vector<char> new_slivers =
+      find_slivers(moderate,
+                   !problem.lines.empty() && problem.lines[0].degree > 1);
+    if (!serves(problem) || !everywhere(slivers == new_slivers))
       {
         enforced = problem.enforced;
+        slivers  = new_slivers;
         partition(problem);
         partitioned = true;
       }
 
-    if (!band.rows.empty())
+    if (has_band)
       {
         band.copy(problem.matrix);
         coupling.copy(problem.matrix);
-        const std::optional<unsigned int> failed =
+        const auto failed =
           band_factor.factorize(band.matrix,
                                 problem.regularisation.empty() ?
                                   std::vector<double>() :
                                   select_nodes(problem.regularisation,
                                                band.rows));
         if (failed)
-          return band.rows[*failed];
+          return band_factor.owns(*failed) ?
+                   band.rows[*failed - band_factor.first_number()] :
+                   numbers::invalid_unsigned_int;
       }
     if (v_cycle)
       {
@@ -233,12 +294,8 @@ namespace Impoint
                           outer.matrix);
         v_cycle->new_matrix(outer.matrix);
       }
-
-    residual.resize(problem.pattern.n_rows() * dim);
     band_right.resize(band.rows.size() * dim);
     band_solution.resize(band.rows.size() * dim);
-    outer_right.resize(outer.rows.size() * dim);
-    outer_solution.resize(outer.rows.size() * dim);
     return {};
   }
 
@@ -258,12 +315,15 @@ namespace Impoint
   {
     residual = r;
     z.assign(r.size(), 0.);
-    if (band.rows.empty())
+    if (!has_band)
       {
         solve_outside(z);
         return;
       }
 
+    std::fill(residual.end() - std::size_t(nodes.n_ghosts()) * dim,
+              residual.end(),
+              0.);
     const BlockPattern &pattern = coupling.pattern;
     gather_nodes<dim>(r, band.rows, band_right);
     band_factor.vmult(band_right, band_solution);
@@ -278,8 +338,10 @@ namespace Impoint
             -1.,
             &residual[std::size_t(pattern.columns[k]) * dim]);
       }
+    nodes.add(residual);
 
     solve_outside(z);
+    nodes.update(z);
 
     for (std::size_t i = 0; i < band.rows.size(); ++i)
       {
@@ -299,7 +361,7 @@ namespace Impoint
   template <int dim>
   std::string BandPreconditioner<dim>::description() const
   {
-    if (band.rows.empty())
+    if (!has_band)
       return v_cycle_name;
     return v_cycle_name.empty() ? "band" : "band + " + v_cycle_name;
   }

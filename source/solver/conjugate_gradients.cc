@@ -1,19 +1,24 @@
 #include <impoint/base/exceptions.h>
 #include <impoint/solver/conjugate_gradients.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <cmath>
 
 namespace Impoint
 {
   namespace
   {
+    /** Of the first @p n entries on each rank. */
     double dot_product(const std::vector<double> &a,
-                       const std::vector<double> &b)
+                       const std::vector<double> &b,
+                       const std::size_t          n,
+                       const MPI_Comm             comm)
     {
       double sum = 0;
-      for (std::size_t i = 0; i < a.size(); ++i)
+      for (std::size_t i = 0; i < n; ++i)
         sum += a[i] * b[i];
-      return sum;
+      return Utilities::MPI::sum(sum, comm);
     }
 
     /** Also catches NaN, which compares false. */
@@ -46,16 +51,24 @@ namespace Impoint
 
   template <int dim>
   IterationResult conjugate_gradients(const BlockMatrix<dim>    &matrix,
+                                      const NodeExchange        &nodes,
                                       const Preconditioner      &preconditioner,
                                       const std::vector<double> &b,
                                       const IterationControl    &control,
                                       std::vector<double>       &x)
   {
+    const std::size_t n       = b.size();
+    const std::size_t n_local = n + std::size_t(nodes.n_ghosts()) * dim;
+    const auto        dot     = [&](const std::vector<double> &a,
+                         const std::vector<double> &c) {
+      return dot_product(a, c, n, nodes.communicator());
+    };
     IterationResult     result;
-    std::vector<double> r = b, z(b.size()), q(b.size());
-    x.assign(b.size(), 0.);
+    std::vector<double> r = b, z(n_local), q(n);
+    r.resize(n_local);
+    x.assign(n, 0.);
 
-    if (dot_product(b, b) == 0)
+    if (dot(b, b) == 0)
       {
         result.converged = true;
         result.reduction = 0;
@@ -64,19 +77,20 @@ namespace Impoint
 
     preconditioner.vmult(r, z);
     std::vector<double> p       = z;
-    const double        initial = dot_product(r, z);
+    const double        initial = dot(r, z);
     require_positive(initial, "r . M r");
 
     double r_dot_z = initial;
     while (result.iterations < control.max_iterations &&
            !hopeless(control, result))
       {
+        nodes.update(p);
         matrix.vmult(p.data(), q.data());
-        const double p_dot_q = dot_product(p, q);
+        const double p_dot_q = dot(p, q);
         require_positive(p_dot_q, "p . A p");
 
         const double alpha = r_dot_z / p_dot_q;
-        for (std::size_t i = 0; i < x.size(); ++i)
+        for (std::size_t i = 0; i < n; ++i)
           {
             x[i] += alpha * p[i];
             r[i] -= alpha * q[i];
@@ -85,7 +99,7 @@ namespace Impoint
 
         preconditioner.vmult(r, z);
         const double previous = r_dot_z;
-        r_dot_z               = dot_product(r, z);
+        r_dot_z               = dot(r, z);
         // at round-off the product may have either sign
         result.reduction = std::sqrt(std::abs(r_dot_z) / initial);
         if (result.reduction <= control.tolerance)
@@ -96,18 +110,20 @@ namespace Impoint
         require_positive(r_dot_z, "r . M r");
 
         const double beta = r_dot_z / previous;
-        for (std::size_t i = 0; i < p.size(); ++i)
+        for (std::size_t i = 0; i < n; ++i)
           p[i] = z[i] + beta * p[i];
       }
     return result;
   }
 
   template IterationResult conjugate_gradients<2>(const BlockMatrix<2> &,
+                                                  const NodeExchange &,
                                                   const Preconditioner &,
                                                   const std::vector<double> &,
                                                   const IterationControl &,
                                                   std::vector<double> &);
   template IterationResult conjugate_gradients<3>(const BlockMatrix<3> &,
+                                                  const NodeExchange &,
                                                   const Preconditioner &,
                                                   const std::vector<double> &,
                                                   const IterationControl &,

@@ -1,4 +1,5 @@
 #include <impoint/solver/lattice_coarsening.h>
+#include <impoint/solver/shared_places.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/types.h>
@@ -13,16 +14,21 @@ namespace Impoint
   template <int dim>
   LatticeCoarsening<dim>::LatticeCoarsening(
     const BlockPattern            &pattern,
+    const NodeExchange            &nodes,
     const Lattice                 &lattice,
     const std::vector<SplineLine> &lines)
   {
     for (const SplineLine &line : lines)
       coarse_lines.emplace_back(line.degree, (line.n_cells + 1) / 2);
     find_parents(lattice, lines);
+    if (!nodes.alone())
+      share_parents(nodes.communicator(), pattern.n_rows());
     find_half_products(pattern);
     const Children children = find_children();
     build_pattern(children);
     find_targets(children);
+    if (!nodes.alone())
+      own_rows();
   }
 
   template <int dim>
@@ -70,6 +76,47 @@ namespace Impoint
         coarse_lattice.begin());
   }
 
+  /** Numbers what this rank owns of the coarse nodes first, then ghosts. */
+  template <int dim>
+  void LatticeCoarsening<dim>::share_parents(const MPI_Comm     comm,
+                                             const unsigned int n_owned)
+  {
+    std::vector<char> claimed(coarse_lattice.size(), false);
+    for (std::size_t link = 0; link < parent_start[n_owned]; ++link)
+      claimed[parents[link]] = true;
+    const SharedPlaces<dim> shared(comm, coarse_lattice, claimed);
+    part_nodes = NodeExchange(comm, shared.n_owned, shared.ghosts);
+
+    Lattice                   sorted;
+    std::vector<unsigned int> position(coarse_lattice.size());
+    for (const unsigned int place : shared.order)
+      {
+        position[place] = sorted.size();
+        sorted.push_back(coarse_lattice[place]);
+      }
+    coarse_lattice = sorted;
+    for (unsigned int &parent : parents)
+      parent = position[parent];
+  }
+
+  /** From the nodes of the part to those of the rows. */
+  template <int dim>
+  void LatticeCoarsening<dim>::own_rows()
+  {
+    rows.new_pattern(part_pattern, part_nodes);
+    const unsigned int  n_owned = rows.pattern().n_rows();
+    std::vector<double> places;
+    for (unsigned int node = 0; node < n_owned; ++node)
+      places.insert(places.end(),
+                    coarse_lattice[node].begin(),
+                    coarse_lattice[node].end());
+    coarse_lattice.resize(n_owned + rows.nodes().n_ghosts());
+    places.resize(coarse_lattice.size() * dim);
+    rows.nodes().update(places);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      coarse_lattice[i / dim][i % dim] = static_cast<int>(places[i]);
+  }
+
   template <int dim>
   void LatticeCoarsening<dim>::find_half_products(const BlockPattern &fine)
   {
@@ -105,18 +152,19 @@ namespace Impoint
   typename LatticeCoarsening<dim>::Children
   LatticeCoarsening<dim>::find_children() const
   {
-    Children children;
+    Children          children;
+    const std::size_t n_links = parent_start[half_product.n_rows()];
     children.start.assign(coarse_lattice.size() + 1, 0);
-    children.nodes.resize(parents.size());
-    children.links.resize(parents.size());
-    for (const unsigned int parent : parents)
-      ++children.start[parent + 1];
+    children.nodes.resize(n_links);
+    children.links.resize(n_links);
+    for (std::size_t link = 0; link < n_links; ++link)
+      ++children.start[parents[link] + 1];
     for (std::size_t node = 0; node < coarse_lattice.size(); ++node)
       children.start[node + 1] += children.start[node];
 
     std::vector<std::size_t> next(children.start.begin(),
                                   children.start.end() - 1);
-    for (unsigned int node = 0; node + 1 < parent_start.size(); ++node)
+    for (unsigned int node = 0; node < half_product.n_rows(); ++node)
       for (std::size_t link = parent_start[node]; link < parent_start[node + 1];
            ++link)
         {
@@ -132,7 +180,7 @@ namespace Impoint
   {
     std::vector<unsigned int> last_row(coarse_lattice.size(),
                                        numbers::invalid_unsigned_int);
-    coarse_pattern.row_start.assign(1, 0);
+    part_pattern.row_start.assign(1, 0);
     for (unsigned int row = 0; row < coarse_lattice.size(); ++row)
       {
         for (std::size_t c = children.start[row]; c < children.start[row + 1];
@@ -144,12 +192,11 @@ namespace Impoint
                 last_row[column] != row)
               {
                 last_row[column] = row;
-                coarse_pattern.columns.push_back(column);
+                part_pattern.columns.push_back(column);
               }
-        std::sort(coarse_pattern.columns.begin() +
-                    coarse_pattern.row_start.back(),
-                  coarse_pattern.columns.end());
-        coarse_pattern.row_start.push_back(coarse_pattern.columns.size());
+        std::sort(part_pattern.columns.begin() + part_pattern.row_start.back(),
+                  part_pattern.columns.end());
+        part_pattern.row_start.push_back(part_pattern.columns.size());
       }
   }
 
@@ -158,8 +205,9 @@ namespace Impoint
   {
     // Laid out child by child, parent by parent; filled by coarse rows, so
     // that one array tells where each column of the row stands.
-    std::vector<std::size_t> start(parents.size() + 1, 0);
-    for (unsigned int node = 0; node + 1 < parent_start.size(); ++node)
+    const unsigned int       n_fine = half_product.n_rows();
+    std::vector<std::size_t> start(parent_start[n_fine] + 1, 0);
+    for (unsigned int node = 0; node < n_fine; ++node)
       for (std::size_t link = parent_start[node]; link < parent_start[node + 1];
            ++link)
         start[link + 1] = start[link] + half_product.row_start[node + 1] -
@@ -169,10 +217,10 @@ namespace Impoint
     std::vector<unsigned int> place(coarse_lattice.size());
     for (unsigned int row = 0; row < coarse_lattice.size(); ++row)
       {
-        for (std::size_t k = coarse_pattern.row_start[row];
-             k < coarse_pattern.row_start[row + 1];
+        for (std::size_t k = part_pattern.row_start[row];
+             k < part_pattern.row_start[row + 1];
              ++k)
-          place[coarse_pattern.columns[k]] = k;
+          place[part_pattern.columns[k]] = k;
         for (std::size_t c = children.start[row]; c < children.start[row + 1];
              ++c)
           {
@@ -189,13 +237,24 @@ namespace Impoint
   void LatticeCoarsening<dim>::galerkin(const BlockMatrix<dim> &fine,
                                         BlockMatrix<dim>       &coarse) const
   {
+    BlockMatrix<dim> part;
+    multiply(fine, rows.nodes().alone() ? coarse : part);
+    if (!rows.nodes().alone())
+      rows.add_up(part, coarse);
+  }
+
+  /** This rank's part of the product. */
+  template <int dim>
+  void LatticeCoarsening<dim>::multiply(const BlockMatrix<dim> &fine,
+                                        BlockMatrix<dim>       &part) const
+  {
     constexpr std::size_t block = dim * dim;
-    coarse.reinit(coarse_pattern);
+    part.reinit(part_pattern);
 
     const unsigned short *half_position = half_target.data();
     const unsigned int   *position      = target.data();
     std::vector<double>   row; // of A P
-    for (unsigned int node = 0; node + 1 < parent_start.size(); ++node)
+    for (unsigned int node = 0; node < half_product.n_rows(); ++node)
       {
         const std::size_t n_columns =
           half_product.row_start[node + 1] - half_product.row_start[node];
@@ -221,7 +280,7 @@ namespace Impoint
              ++link)
           for (std::size_t column = 0; column < n_columns; ++column)
             {
-              double       *sum = &coarse.values[*position++ * block];
+              double       *sum = &part.values[*position++ * block];
               const double *a   = &row[column * block];
               for (unsigned int i = 0; i < block; ++i)
                 sum[i] += weights[link] * a[i];
@@ -233,20 +292,23 @@ namespace Impoint
   void LatticeCoarsening<dim>::restrict(const std::vector<double> &fine,
                                         std::vector<double>       &coarse) const
   {
-    coarse.assign(coarse_lattice.size() * dim, 0.);
-    for (std::size_t node = 0; node + 1 < parent_start.size(); ++node)
+    coarse.assign(std::size_t(part_pattern.n_rows()) * dim, 0.);
+    for (std::size_t node = 0; node < half_product.n_rows(); ++node)
       for (std::size_t link = parent_start[node]; link < parent_start[node + 1];
            ++link)
         for (unsigned int d = 0; d < dim; ++d)
           coarse[static_cast<std::size_t>(parents[link]) * dim + d] +=
             weights[link] * fine[node * dim + d];
+    part_nodes.add(coarse);
   }
 
   template <int dim>
-  void LatticeCoarsening<dim>::prolongate(const std::vector<double> &coarse,
-                                          std::vector<double>       &fine) const
+  void LatticeCoarsening<dim>::prolongate(std::vector<double> &coarse,
+                                          std::vector<double> &fine) const
   {
-    for (std::size_t node = 0; node + 1 < parent_start.size(); ++node)
+    coarse.resize(std::size_t(part_pattern.n_rows()) * dim);
+    part_nodes.update(coarse);
+    for (std::size_t node = 0; node < half_product.n_rows(); ++node)
       for (std::size_t link = parent_start[node]; link < parent_start[node + 1];
            ++link)
         for (unsigned int d = 0; d < dim; ++d)
@@ -258,7 +320,13 @@ namespace Impoint
   template <int dim>
   const BlockPattern &LatticeCoarsening<dim>::pattern() const
   {
-    return coarse_pattern;
+    return rows.nodes().alone() ? part_pattern : rows.pattern();
+  }
+
+  template <int dim>
+  const NodeExchange &LatticeCoarsening<dim>::nodes() const
+  {
+    return rows.nodes();
   }
 
   template <int dim>

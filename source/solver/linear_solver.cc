@@ -1,4 +1,5 @@
 #include <impoint/base/exceptions.h>
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/solver/band_preconditioner.h>
 #include <impoint/solver/direct_solver.h>
@@ -6,6 +7,7 @@
 #include <impoint/solver/lu_solver.h>
 
 #include <deal.II/base/exceptions.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
 
 #include <algorithm>
@@ -83,6 +85,13 @@ namespace Impoint
   }
 
   template <int dim>
+  std::size_t LinearProblem<dim>::n_unknowns() const
+  {
+    return Utilities::MPI::sum(std::size_t(pattern.n_rows()) * dim,
+                               nodes.communicator());
+  }
+
+  template <int dim>
   struct LinearSolver<dim>::Implementation
   {
     Implementation(const LinearSolverParameters &parameters, Counters &counters)
@@ -140,7 +149,9 @@ namespace Impoint
       iterative ? band.renew(problem) :
                   factor.factorize(problem.matrix, problem.regularisation);
     if (failed)
-      {
+      on_all_ranks(problem.nodes.communicator(), [&]() {
+        if (*failed >= problem.pattern.n_rows())
+          return;
         std::ostringstream message;
         message << "The linear system is not positive definite: no positive "
                    "pivot at the node at ("
@@ -148,7 +159,7 @@ namespace Impoint
                 << "). A body without sufficient supports, a material that "
                    "softens, or too large a step bring this about.";
         throw StepFailed(message.str());
-      }
+      });
     exists = current = true;
   }
 
@@ -171,8 +182,8 @@ namespace Impoint
   {
     const Preconditioner &preconditioner =
       iterative ? static_cast<const Preconditioner &>(band) : factor;
-    const IterationResult result =
-      conjugate_gradients(problem.matrix, preconditioner, b, control, x);
+    const IterationResult result = conjugate_gradients(
+      problem.matrix, problem.nodes, preconditioner, b, control, x);
     counters.linear_iterations += result.iterations;
     // the first iteration with its own factor is the direct solve
     if (!iterative && current && result.iterations > 0)
@@ -236,10 +247,9 @@ namespace Impoint
     data.exists = data.current = data.proved = false;
     data.distrust = data.distrusted = 0;
     data.symmetric                  = problem.symmetric;
-    data.iterative =
-      problem.symmetric &&
-      iterative(static_cast<std::size_t>(problem.pattern.n_rows()) * dim,
-                !problem.lattice.empty());
+    data.iterative                  = problem.symmetric &&
+                     iterative(problem.n_unknowns(), !problem.lines.empty());
+    Assert(data.iterative || problem.nodes.alone(), ExcInternalError());
     if (!data.symmetric)
       data.lu.new_pattern(problem.pattern);
     else if (data.iterative)
@@ -330,6 +340,8 @@ namespace Impoint
     return "CG, " + data.band.description();
   }
 
+  template struct LinearProblem<2>;
+  template struct LinearProblem<3>;
   template class LinearSolver<2>;
   template class LinearSolver<3>;
 } // namespace Impoint

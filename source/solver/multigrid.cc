@@ -1,9 +1,12 @@
 #include <impoint/base/exceptions.h>
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/solver/multigrid.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Impoint
 {
@@ -30,12 +33,15 @@ namespace Impoint
     matrix   = &new_matrix;
     diagonal = diagonal_blocks(*matrix->pattern);
     inverse.resize(diagonal.size() * dim * dim);
+    find_added();
     for (std::size_t row = 0; row < diagonal.size(); ++row)
       {
         Tensor<2, dim> block;
         for (unsigned int k = 0; k < dim * dim; ++k)
           block[k / dim][k % dim] =
             matrix->values[diagonal[row] * dim * dim + k];
+        for (unsigned int d = 0; d < dim; ++d)
+          block[d][d] += added[row * dim + d];
         if (!(determinant(block) > 0))
           throw StepFailed("The matrix is not positive definite: a node has a "
                            "singular or negative stiffness of its own.");
@@ -43,6 +49,34 @@ namespace Impoint
         for (unsigned int k = 0; k < dim * dim; ++k)
           inverse[row * dim * dim + k] = block[k / dim][k % dim];
       }
+  }
+
+  template <int dim>
+  void GaussSeidel<dim>::find_added()
+  {
+    const auto sum_of_row = [this](const std::size_t  block,
+                                   const unsigned int d) {
+      double sum = 0;
+      for (unsigned int e = 0; e < dim; ++e)
+        sum += std::abs(matrix->values[(block * dim + d) * dim + e]);
+      return sum;
+    };
+    added.assign(diagonal.size() * dim, 0.);
+    for (std::size_t row = 0; row < diagonal.size(); ++row)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double sum = 0;
+          for (std::size_t k = matrix->pattern->row_start[row + 1];
+               matrix->pattern->columns[k - 1] >= diagonal.size();
+               --k)
+            sum += sum_of_row(k - 1, d);
+          if (sum == 0)
+            continue;
+          const double own =
+            matrix->values[(diagonal[row] * dim + d) * dim + d];
+          sum += sum_of_row(diagonal[row], d) - 2 * own;
+          added[row * dim + d] = std::max(0., sum / 2);
+        }
   }
 
   template <int dim>
@@ -89,7 +123,7 @@ namespace Impoint
                   x.data(),
                   r_row);
         for (unsigned int d = 0; d < dim; ++d)
-          r_row[d] = -r_row[d];
+          r_row[d] = added[row * dim + d] * x[row * dim + d] - r_row[d];
       }
   }
 
@@ -115,24 +149,33 @@ namespace Impoint
 
   template <int dim>
   Multigrid<dim>::Multigrid(const BlockPattern            &pattern,
+                            const NodeExchange            &nodes,
                             const Lattice                 &lattice,
                             const std::vector<SplineLine> &lines)
   {
+    const auto count = [&](const BlockPattern &of) {
+      return Utilities::MPI::sum(of.n_rows(), nodes.communicator());
+    };
     const BlockPattern            *current         = &pattern;
+    const NodeExchange            *current_nodes   = &nodes;
     const Lattice                 *current_lattice = &lattice;
     const std::vector<SplineLine> *current_lines   = &lines;
-    while (current->n_rows() * dim > bottom_unknowns)
+    unsigned int                   n_fine          = count(pattern);
+    while (n_fine * dim > bottom_unknowns)
       {
-        levels.push_back(
-          std::make_unique<Level>(*current, *current_lattice, *current_lines));
-        const unsigned int n_fine = current->n_rows();
-        current                   = &levels.back()->coarsening.pattern();
-        current_lattice           = &levels.back()->coarsening.lattice();
-        current_lines             = &levels.back()->coarsening.lines();
-        if (current->n_rows() > least_coarsening * n_fine)
+        levels.push_back(std::make_unique<Level>(
+          *current, *current_nodes, *current_lattice, *current_lines));
+        const LatticeCoarsening<dim> &coarsening = levels.back()->coarsening;
+        current                                  = &coarsening.pattern();
+        current_nodes                            = &coarsening.nodes();
+        current_lattice                          = &coarsening.lattice();
+        current_lines                            = &coarsening.lines();
+        const unsigned int n_coarse              = count(*current);
+        if (n_coarse > least_coarsening * n_fine)
           break;
+        n_fine = n_coarse;
       }
-    bottom.new_pattern(*current);
+    bottom.new_pattern(*current, *current_nodes);
   }
 
   template <int dim>
@@ -141,12 +184,11 @@ namespace Impoint
     const BlockMatrix<dim> *current = &matrix;
     for (const std::unique_ptr<Level> &level : levels)
       {
-        const std::size_t n_fine = current->pattern->n_rows() * dim;
-        level->smoother.reinit(*current);
+        on_all_ranks(level->nodes.communicator(),
+                     [&]() { level->smoother.reinit(*current); });
+        level->residual.resize(current->pattern->n_rows() * dim);
         level->coarsening.galerkin(*current, level->coarse_matrix);
         current = &level->coarse_matrix;
-        level->residual.resize(n_fine);
-        level->coarse_solution.resize(current->pattern->n_rows() * dim);
       }
 
     const std::vector<std::size_t> diagonal =
@@ -185,10 +227,13 @@ namespace Impoint
       }
     const Level &level = *levels[level_index];
     level.smoother.forward(b, x);
+    level.nodes.update(x);
     level.smoother.residual(x, level.residual);
     level.coarsening.restrict(level.residual, level.coarse_right);
+    level.coarse_solution.resize(level.coarsening.lattice().size() * dim);
     cycle(level_index + 1, level.coarse_right, level.coarse_solution);
     level.coarsening.prolongate(level.coarse_solution, x);
+    level.nodes.update(x);
     level.smoother.backward(b, x);
   }
 

@@ -1,6 +1,7 @@
 // CPU times of the linear solvers on the model problem: CHOLMOD by its own
 // defaults, our direct solver, the iteration. Not a test; run by hand:
-//   OPENBLAS_NUM_THREADS=1 linear_solvers [dimension cells]
+//   OPENBLAS_NUM_THREADS=1 [mpirun -np 2] linear_solvers [dimension cells]
+// Several ranks iterate together; times are those of the slowest, by the clock.
 
 #include <impoint/base/exceptions.h>
 #include <impoint/solver/direct_solver.h>
@@ -13,7 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "../solver/model_problem.h"
+#include "../solver/split_problem.h"
 
 using namespace ModelProblem;
 
@@ -127,9 +128,72 @@ void run(const unsigned int cells, const bool with_direct)
     }
 }
 
+template <int dim>
+void run_together(const unsigned int cells)
+{
+  const auto slowest = [](const Timer &timer) {
+    return Utilities::MPI::max(timer.wall_time(), MPI_COMM_WORLD);
+  };
+  Settings settings;
+  settings.cells = cells;
+  for (const double factor : {1., 1e4, 1e8})
+    {
+      Block<dim> block(settings);
+      block.set_penalty(factor);
+      SplitProblem<dim> split(block.problem);
+      split.copy(block.problem);
+      const std::vector<double> load = split.own(block.load);
+      const std::size_t         n    = block.load.size();
+      block.problem                  = LinearProblem<dim>();
+
+      LinearSolverParameters parameters;
+      parameters.kind = "iterative";
+      Counters                counters;
+      LinearSolver<dim>       solver(parameters, counters);
+      DistributedProblem<dim> rows;
+      std::vector<double>     x;
+      MPI_Barrier(MPI_COMM_WORLD);
+      Timer timer;
+      rows.new_pattern(split.part, split.exchange());
+      solver.new_pattern(rows.problem());
+      const double pattern = slowest(timer);
+      rows.new_matrix(split.part);
+      solver.new_matrix(rows.problem());
+      const double matrix = slowest(timer);
+      solver.solve(rows.problem(), load, x);
+      const double first      = slowest(timer);
+      const auto   iterations = counters.linear_iterations;
+      solver.solve(rows.problem(), load, x);
+      const double again = slowest(timer) - first;
+      if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+        std::printf("%dD %4u %7zu %5.0e | %8.4f %8.4f %8.4f %8.4f %3zu\n",
+                    dim,
+                    cells,
+                    n,
+                    factor,
+                    pattern,
+                    matrix - pattern,
+                    first - matrix - again,
+                    again,
+                    iterations);
+    }
+}
+
 int main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  if (Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+    {
+      if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+        std::printf("dimension cells unknowns beta h/E | pattern, rows,"
+                    " set-up, solve, iterations [s]\n");
+      const unsigned int cells = argc == 3 ? std::atoi(argv[2]) : 31;
+      if (argc == 3 && std::atoi(argv[1]) == 2)
+        run_together<2>(cells);
+      else
+        run_together<3>(cells);
+      return 0;
+    }
   std::printf(
     "dimension cells unknowns beta h/E | CHOLMOD: analyse factorise solve"
     " | direct: pattern, factor, solve, refinements"

@@ -45,6 +45,16 @@ for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary
             SCENES[title][1].append("Boundaries/clamp/Band width = 1e-6")
         SCENES[f"{method}, hexes"][1].append("Boundaries/wall/Band width = 1e-6")
 
+for method in ("projected penalty", "lagrange multiplier"):
+    # Conjugate gradients on rows spread over the ranks, V-cycles of both kinds.
+    iterative = [f"Boundaries/clamp/Enforcement = {method}",
+                 "Linear solver/Kind = iterative"]
+    if method == "projected penalty":
+        iterative.append("Boundaries/clamp/Penalty factor = 1e8")
+    SCENES[f"{method}, iterative, triangles"] = (
+        "quickstart.prm", [*COARSE, "Grid/Cells = triangles", *iterative])
+    SCENES[f"{method}, iterative, hexes"] = (HERE / "ranks_bar_3d.prm", iterative)
+
 # Of the solver's way, not of its end.
 LEFT_OUT = {"Newton iterations", "linear iterations", "residual"}
 

@@ -14,7 +14,7 @@ namespace Impoint
 
   /**
    * Smoothed aggregation (Trilinos ML) with the rigid-body modes of the nodes,
-   * for grids without a lattice. Lives on one process.
+   * for grids without a lattice.
    */
   template <int dim>
   class AlgebraicMultigrid : public VCycle<dim>
@@ -22,6 +22,7 @@ namespace Impoint
   public:
     /** The nodes of @p pattern stand at @p points [m]. */
     AlgebraicMultigrid(const BlockPattern            &pattern,
+                       const NodeExchange            &nodes,
                        const std::vector<Point<dim>> &points);
     ~AlgebraicMultigrid() override;
 

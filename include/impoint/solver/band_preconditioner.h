@@ -1,6 +1,7 @@
 #ifndef impoint_solver_band_preconditioner_h
 #define impoint_solver_band_preconditioner_h
 
+#include <impoint/solver/gathered_factor.h>
 #include <impoint/solver/linear_solver.h>
 #include <impoint/solver/multigrid.h>
 
@@ -22,6 +23,9 @@ namespace Impoint
    * With B the band and O the other nodes, that is
    *   z_O = V (r_O - A_OB A_BB^-1 r_B),  z_B = A_BB^-1 (r_B - A_BO z_O):
    * what the V-cycle says of the band itself is superseded by the last solve.
+   *
+   * On several ranks the V-cycle is spread over them, while the factor of the
+   * band, which is a surface, is on one. All is collective.
    */
   template <int dim>
   class BandPreconditioner : public Preconditioner
@@ -38,7 +42,7 @@ namespace Impoint
     bool serves(const LinearProblem<dim> &problem) const;
 
     /** Factorises and makes the hierarchy. Returns the node with a pivot that
-     * is not positive, if any. */
+     * is not positive, if any; if another rank owns it, an invalid number. */
     std::optional<unsigned int> renew(const LinearProblem<dim> &problem);
 
     void vmult(const std::vector<double> &r,
@@ -48,19 +52,26 @@ namespace Impoint
     std::string description() const;
 
   private:
-    void find_slivers(const BlockMatrix<dim> &matrix, const bool splines);
-    void partition(const LinearProblem<dim> &problem);
-    void solve_outside(std::vector<double> &residual) const;
+    /** Which nodes are slivers, ghosts included. */
+    std::vector<char> find_slivers(const BlockMatrix<dim> &matrix,
+                                   const bool              splines) const;
+    void              partition(const LinearProblem<dim> &problem);
+    void              make_v_cycle(const LinearProblem<dim> &problem);
+    void              solve_outside(std::vector<double> &residual) const;
+
+    /** Whether it holds on all ranks. */
+    bool everywhere(const bool here) const;
 
     const double      sliver_threshold;
-    bool              partitioned = false;
+    NodeExchange      nodes;
+    bool              partitioned = false, has_band = false;
     std::vector<char> enforced, slivers;
 
     BlockSubmatrix<dim> band;     // A_BB
     BlockSubmatrix<dim> coupling; // A_BO, columns numbered as in A
     BlockSubmatrix<dim> outer;    // the moderate matrix without slivers
 
-    DirectSolver<dim>            band_factor;
+    GatheredFactor<dim>          band_factor;
     std::unique_ptr<VCycle<dim>> v_cycle; // none if the band is everything
     std::string                  v_cycle_name;
 

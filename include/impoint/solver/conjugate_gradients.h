@@ -2,18 +2,23 @@
 #define impoint_solver_conjugate_gradients_h
 
 #include <impoint/solver/block_matrix.h>
+#include <impoint/solver/node_exchange.h>
 
 #include <vector>
 
 namespace Impoint
 {
-  /** A symmetric positive definite approximation of an inverse. */
+  /**
+   * A symmetric positive definite approximation of an inverse. Vectors are
+   * those of the nodes that a rank owns; room for ghosts may follow, whose
+   * values are not used.
+   */
   class Preconditioner
   {
   public:
     virtual ~Preconditioner() = default;
 
-    /** z = M r; z has the size of r. */
+    /** z = M r; z has the size of r. Collective if it serves several ranks. */
     virtual void vmult(const std::vector<double> &r,
                        std::vector<double>       &z) const = 0;
   };
@@ -37,12 +42,14 @@ namespace Impoint
   };
 
   /**
-   * Solves A x = b from x = 0. The preconditioned residual decides, for the
+   * Solves A x = b from x = 0, the rows being those of the nodes owned among
+   * @p nodes. Collective. The preconditioned residual decides, for the
    * residual itself stalls at round-off of the stiffest entries. Throws
    * StepFailed if A (or M) turns out not to be positive definite.
    */
   template <int dim>
   IterationResult conjugate_gradients(const BlockMatrix<dim>    &matrix,
+                                      const NodeExchange        &nodes,
                                       const Preconditioner      &preconditioner,
                                       const std::vector<double> &b,
                                       const IterationControl    &control,

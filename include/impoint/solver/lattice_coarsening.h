@@ -2,7 +2,7 @@
 #define impoint_solver_lattice_coarsening_h
 
 #include <impoint/grid/spline_line.h>
-#include <impoint/solver/block_matrix.h>
+#include <impoint/solver/owned_rows.h>
 
 #include <array>
 #include <vector>
@@ -15,6 +15,9 @@ namespace Impoint
    * splines: knot insertion, 1/4 3/4 3/4 1/4 and 1/8 4/8 6/8 4/8 1/8 but at the
    * ends). All coarse functions that a fine one is in exist. The places of all
    * products in P^T A P are found once, so that values are only streamed.
+   *
+   * Coarse nodes belong to the lowest rank that owns a fine node of theirs. A
+   * rank makes the part of P^T A P of its fine rows; OwnedRows adds these up.
    */
   template <int dim>
   class LatticeCoarsening
@@ -22,24 +25,27 @@ namespace Impoint
   public:
     using Lattice = std::vector<std::array<int, dim>>;
 
-    /** @p lines: of the lattice, one a direction. */
+    /** @p lines: of the lattice, one a direction. All collective. */
     LatticeCoarsening(const BlockPattern            &pattern,
+                      const NodeExchange            &nodes,
                       const Lattice                 &lattice,
                       const std::vector<SplineLine> &lines);
 
     /** coarse = P^T fine P. */
     void galerkin(const BlockMatrix<dim> &fine, BlockMatrix<dim> &coarse) const;
 
-    /** coarse = P^T fine. */
+    /** coarse = P^T fine, of the nodes owned. */
     void restrict(const std::vector<double> &fine,
                   std::vector<double>       &coarse) const;
 
-    /** fine += P coarse. */
-    void prolongate(const std::vector<double> &coarse,
-                    std::vector<double>       &fine) const;
+    /** fine += P coarse, of the nodes owned; what follows these in coarse is
+     * of no use afterwards. */
+    void prolongate(std::vector<double> &coarse,
+                    std::vector<double> &fine) const;
 
     const BlockPattern            &pattern() const; // of the coarse matrix
-    const Lattice                 &lattice() const; // of the coarse nodes
+    const NodeExchange            &nodes() const;   // of its rows and columns
+    const Lattice                 &lattice() const; // of these
     const std::vector<SplineLine> &lines() const;   // of the coarse lattice
 
   private:
@@ -53,12 +59,20 @@ namespace Impoint
 
     void     find_parents(const Lattice                 &lattice,
                           const std::vector<SplineLine> &lines);
+    void     share_parents(const MPI_Comm comm, const unsigned int n_owned);
+    void     own_rows();
     Children find_children() const;
-    void     find_half_products(const BlockPattern &fine);
-    void     build_pattern(const Children &children);
-    void     find_targets(const Children &children);
+    void multiply(const BlockMatrix<dim> &fine, BlockMatrix<dim> &part) const;
+    void find_half_products(const BlockPattern &fine);
+    void build_pattern(const Children &children);
+    void find_targets(const Children &children);
 
-    BlockPattern            coarse_pattern;
+    // the part of this rank
+    NodeExchange     part_nodes;
+    BlockPattern     part_pattern;
+    BlockMatrix<dim> part;
+
+    OwnedRows<dim>          rows; // of several ranks
     Lattice                 coarse_lattice;
     std::vector<SplineLine> coarse_lines;
 

@@ -4,6 +4,7 @@
 #include <impoint/base/counters.h>
 #include <impoint/grid/spline_line.h>
 #include <impoint/solver/block_matrix.h>
+#include <impoint/solver/node_exchange.h>
 
 #include <deal.II/base/point.h>
 
@@ -33,11 +34,16 @@ namespace Impoint
   /**
    * A linear problem on the active nodes, as the solver sees it: dim unknowns a
    * node, conforming conditions already eliminated (rows and columns zero but
-   * for the diagonal).
+   * for the diagonal). Several ranks have the rows of the nodes they own; what
+   * is said of nodes, they know of the ghosts, too.
    */
   template <int dim>
   struct LinearProblem
   {
+    /** Number of unknowns of all ranks. Collective. */
+    std::size_t n_unknowns() const;
+
+    NodeExchange     nodes;
     BlockPattern     pattern;
     BlockMatrix<dim> matrix;
 
@@ -65,10 +71,11 @@ namespace Impoint
   };
 
   /**
-   * Solves the linear problems of a run on one process: a direct
-   * factorisation or conjugate gradients with the band preconditioner, chosen
-   * by size and dimension, and keeps either while it serves. What is not
-   * symmetric is always factorised.
+   * Solves the linear problems of a run: by a direct factorisation or
+   * conjugate gradients with the band preconditioner, chosen by size and
+   * dimension, and keeps either while it serves. What is not symmetric is
+   * always factorised. Factorised is what one process has; on several, which
+   * then call everything together, problems must be iterative().
    */
   template <int dim>
   class LinearSolver

@@ -4,8 +4,8 @@
 
 #include <impoint/enforcement/conforming.h>
 #include <impoint/solver/assembly.h>
-#include <impoint/solver/gathered_solver.h>
 #include <impoint/solver/method_of_multipliers.h>
+#include <impoint/solver/parallel_solver.h>
 
 #include <memory>
 #include <vector>
@@ -146,7 +146,7 @@ namespace Impoint
     std::vector<Enforcement::HeldNode<dim>> held;
 
     LinearProblem<dim>       problem;
-    GatheredSolver<dim>      solver;
+    ParallelSolver<dim>      solver;
     MethodOfMultipliers<dim> multipliers;
     bool                     new_problem = true; // since the solver last heard
     bool                     new_matrix  = true;

@@ -8,6 +8,7 @@ namespace Impoint
   /**
    * Throws RunFailed, naming the motion, if a connected part of @p problem can
    * move as a rigid body without any stiffness: statics has no answer then.
+   * Collective on the ranks of the problem.
    */
   template <int dim>
   void check_rigid_modes(const LinearProblem<dim> &problem);

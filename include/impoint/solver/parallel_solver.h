@@ -1,8 +1,8 @@
-#ifndef impoint_solver_gathered_solver_h
-#define impoint_solver_gathered_solver_h
+#ifndef impoint_solver_parallel_solver_h
+#define impoint_solver_parallel_solver_h
 
-#include <impoint/grid/active_nodes.h>
-#include <impoint/solver/linear_solver.h>
+#include <impoint/solver/distributed_problem.h>
+#include <impoint/solver/gathered_problem.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 
@@ -10,16 +10,17 @@ namespace Impoint
 {
   /**
    * Solves linear problems whose matrix is spread over the ranks as each one's
-   * sum over its own cells. Alone, a rank hands its problem on as it is; else
-   * rank 0 adds up all of them and solves.
+   * sum over its own cells. Alone, a rank hands its problem on as it is. Of
+   * several, all iterate together on large problems, while small ones, and
+   * those that must be factorised, are gathered on rank 0.
    */
   template <int dim>
-  class GatheredSolver
+  class ParallelSolver
   {
   public:
     using Vector = LinearAlgebra::distributed::Vector<double>;
 
-    GatheredSolver(const LinearSolverParameters &parameters,
+    ParallelSolver(const LinearSolverParameters &parameters,
                    Counters                     &counters,
                    const MPI_Comm                communicator);
 
@@ -41,23 +42,22 @@ namespace Impoint
     std::string description() const;
 
   private:
-    void gather_nodes(const LinearProblem<dim> &local);
-
-    const LinearProblem<dim> &whole(const LinearProblem<dim> &local) const
+    enum class Way
     {
-      return alone ? local : gathered;
-    }
+      alone,
+      together,
+      on_root
+    };
+
+    /** Lets those ranks act on the problem that have it. */
+    template <typename Action>
+    void act(const LinearProblem<dim> &local, const Action &action) const;
 
     MPI_Comm                comm;
-    bool                    alone, on_root;
+    Way                     way = Way::alone;
     LinearSolver<dim>       solver;
-    const ActiveNodes<dim> *active     = nullptr;
-    std::size_t             n_unknowns = 0;
-
-    // rank 0 of several:
-    LinearProblem<dim>                     gathered;
-    std::vector<std::vector<unsigned int>> numbers; // per rank: rows' numbers
-    std::vector<std::vector<std::size_t>>  places;  // per rank: blocks' places
+    GatheredProblem<dim>    gathered;
+    DistributedProblem<dim> distributed;
   };
 } // namespace Impoint
 

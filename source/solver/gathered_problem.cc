@@ -1,6 +1,4 @@
-#include <impoint/base/on_all_ranks.h>
-#include <impoint/solver/gathered_solver.h>
-#include <impoint/solver/rigid_modes.h>
+#include <impoint/solver/gathered_problem.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -9,26 +7,19 @@
 namespace Impoint
 {
   template <int dim>
-  GatheredSolver<dim>::GatheredSolver(const LinearSolverParameters &parameters,
-                                      Counters                     &counters,
-                                      const MPI_Comm communicator)
+  GatheredProblem<dim>::GatheredProblem(const MPI_Comm communicator)
     : comm(communicator)
-    , alone(Utilities::MPI::n_mpi_processes(comm) == 1)
     , on_root(Utilities::MPI::this_mpi_process(comm) == 0)
-    , solver(parameters, counters)
   {}
 
 
 
   template <int dim>
-  void GatheredSolver<dim>::new_pattern(const ActiveNodes<dim>   &nodes,
-                                        const LinearProblem<dim> &local)
+  void GatheredProblem<dim>::new_pattern(const ActiveNodes<dim>   &nodes,
+                                         const LinearProblem<dim> &local)
   {
     active     = &nodes;
     n_unknowns = nodes.unknowns()->size();
-    if (alone)
-      return solver.new_pattern(local);
-
     std::vector<unsigned int> own_numbers(nodes.n_nodes());
     for (unsigned int i = 0; i < nodes.n_nodes(); ++i)
       own_numbers[i] = nodes.global_number(i);
@@ -75,14 +66,13 @@ namespace Impoint
       }
     gathered.symmetric = local.symmetric;
     gather_nodes(local);
-    Impoint::on_root(comm, [&]() { solver.new_pattern(gathered); });
   }
 
 
 
   /** What the problem says of its nodes; both fit in a row of numbers. */
   template <int dim>
-  void GatheredSolver<dim>::gather_nodes(const LinearProblem<dim> &local)
+  void GatheredProblem<dim>::gather_nodes(const LinearProblem<dim> &local)
   {
     const unsigned int  n     = active->n_nodes();
     const unsigned int  width = 2 + 2 * dim;
@@ -129,20 +119,8 @@ namespace Impoint
 
 
   template <int dim>
-  bool GatheredSolver<dim>::iterative(const ActiveNodes<dim> &nodes) const
+  void GatheredProblem<dim>::new_matrix(const LinearProblem<dim> &local)
   {
-    return solver.iterative(nodes.unknowns()->size(),
-                            !nodes.basis().lines().empty());
-  }
-
-
-
-  template <int dim>
-  void GatheredSolver<dim>::new_matrix(const LinearProblem<dim> &local)
-  {
-    if (alone)
-      return solver.new_matrix(local);
-
     gathered.has_moderate = local.has_moderate;
     const auto add_up     = [&](const BlockMatrix<dim> &part,
                             BlockMatrix<dim>       &sum) {
@@ -160,56 +138,31 @@ namespace Impoint
     if (local.has_moderate)
       add_up(local.moderate, gathered.moderate);
     gather_nodes(local);
-    Impoint::on_root(comm, [&]() { solver.new_matrix(gathered); });
   }
 
 
 
   template <int dim>
-  void GatheredSolver<dim>::solve(const LinearProblem<dim> &local,
-                                  const Vector             &b,
-                                  Vector                   &x,
-                                  const double              looser)
+  std::vector<double>
+  GatheredProblem<dim>::gather(const std::vector<double> &own) const
   {
-    const unsigned int  n_own = active->n_owned_nodes() * dim;
-    std::vector<double> own(b.begin(), b.begin() + n_own), solution;
-    if (alone)
-      {
-        solver.solve(local, own, solution, looser);
-        std::copy(solution.begin(), solution.end(), x.begin());
-        return;
-      }
-    const auto          parts = Utilities::MPI::gather(comm, own, 0);
-    std::vector<double> whole_b;
-    for (const auto &part : parts)
-      whole_b.insert(whole_b.end(), part.begin(), part.end());
-    Impoint::on_root(comm, [&]() {
-      solver.solve(gathered, whole_b, solution, looser);
-    });
-    solution                = Utilities::MPI::broadcast(comm, solution);
-    const std::size_t first = x.get_partitioner()->local_range().first;
-    std::copy(solution.begin() + first,
-              solution.begin() + first + n_own,
-              x.begin());
+    std::vector<double> whole;
+    for (const auto &part : Utilities::MPI::gather(comm, own, 0))
+      whole.insert(whole.end(), part.begin(), part.end());
+    return whole;
   }
 
 
 
   template <int dim>
-  void
-  GatheredSolver<dim>::check_rigid_modes(const LinearProblem<dim> &local) const
+  std::vector<double>
+  GatheredProblem<dim>::scatter(const std::vector<double> &whole) const
   {
-    Impoint::on_root(comm, [&]() { Impoint::check_rigid_modes(whole(local)); });
+    const auto all   = Utilities::MPI::broadcast(comm, whole);
+    const auto range = active->unknowns()->local_range();
+    return {all.begin() + range.first, all.begin() + range.second};
   }
 
-
-
-  template <int dim>
-  std::string GatheredSolver<dim>::description() const
-  {
-    return Utilities::MPI::broadcast(comm, solver.description());
-  }
-
-  template class GatheredSolver<2>;
-  template class GatheredSolver<3>;
+  template class GatheredProblem<2>;
+  template class GatheredProblem<3>;
 } // namespace Impoint
