@@ -11,6 +11,8 @@
 #include <mpi.h>
 #include <Teuchos_ParameterList.hpp>
 
+#include <algorithm>
+
 namespace Impoint
 {
   using namespace dealii;
@@ -51,7 +53,8 @@ namespace Impoint
              Utilities::MPI::sum(double(n_nodes), nodes.communicator());
 
     const std::size_t size = std::size_t(n_nodes) * dim;
-    modes.assign(n_modes * size, 0.);
+    // of no nodes, too, a place: ML takes a null pointer for no modes given
+    modes.assign(std::max<std::size_t>(n_modes * size, 1), 0.);
     for (std::size_t node = 0; node < n_nodes; ++node)
       {
         const Tensor<1, dim> arm  = Tensor<1, dim>(points[node]) - centre;

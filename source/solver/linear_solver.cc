@@ -26,7 +26,9 @@ namespace Impoint
      * three times faster at 9e4 (what lies beyond is extrapolated). A factor
      * serves further solves at a fifteenth to a quarter of an iteration's price
      * and minds the conditioning less, so 2D prefers it while it costs no more
-     * than a tenth of a second.
+     * than a tenth of a second. Several ranks iterate together from the same
+     * sizes: on two, both ways take about the same at 6e3 unknowns in 3D, and
+     * iterating a third of the time at 5e4.
      */
     template <int dim>
     std::size_t iterate_from(const bool on_lattice)

@@ -50,6 +50,30 @@ namespace Impoint
 
     using Entries = std::vector<std::pair<unsigned int, unsigned int>>;
 
+    /** Of the entries of both; those of @p own are sorted. */
+    BlockPattern
+    pattern_of(const Entries &own, Entries others, const unsigned int n_rows)
+    {
+      std::sort(others.begin(), others.end());
+      others.erase(std::unique(others.begin(), others.end()), others.end());
+      Entries all;
+      std::set_union(own.begin(),
+                     own.end(),
+                     others.begin(),
+                     others.end(),
+                     std::back_inserter(all));
+      BlockPattern pattern;
+      pattern.row_start.assign(n_rows + 1, 0);
+      for (const auto &[row, column] : all)
+        {
+          ++pattern.row_start[row + 1];
+          pattern.columns.push_back(column);
+        }
+      for (unsigned int row = 0; row < n_rows; ++row)
+        pattern.row_start[row + 1] += pattern.row_start[row];
+      return pattern;
+    }
+
     std::size_t place_of(const BlockPattern &pattern,
                          const unsigned int  row,
                          const unsigned int  column)
@@ -94,7 +118,7 @@ namespace Impoint
                   ghosts.begin());
     };
 
-    Entries own, of_others, entries;
+    Entries own, of_others;
     for (unsigned int row = 0; row < n_owned; ++row)
       for (std::size_t k = part.row_start[row]; k < part.row_start[row + 1];
            ++k)
@@ -106,23 +130,7 @@ namespace Impoint
       for_entries(message.second, [&](const Number row, const Number column) {
         of_others.emplace_back(local(row), local(column));
       });
-    std::sort(of_others.begin(), of_others.end());
-    of_others.erase(std::unique(of_others.begin(), of_others.end()),
-                    of_others.end());
-    std::set_union(own.begin(),
-                   own.end(),
-                   of_others.begin(),
-                   of_others.end(),
-                   std::back_inserter(entries));
-    row_pattern.row_start.assign(n_owned + 1, 0);
-    row_pattern.columns.clear();
-    for (const auto &entry : entries)
-      {
-        ++row_pattern.row_start[entry.first + 1];
-        row_pattern.columns.push_back(entry.second);
-      }
-    for (unsigned int row = 0; row < n_owned; ++row)
-      row_pattern.row_start[row + 1] += row_pattern.row_start[row];
+    row_pattern = pattern_of(own, of_others, n_owned);
 
     places.clear();
     for (const auto &entry : own)

@@ -45,12 +45,16 @@ for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary
             SCENES[title][1].append("Boundaries/clamp/Band width = 1e-6")
         SCENES[f"{method}, hexes"][1].append("Boundaries/wall/Band width = 1e-6")
 
+# At 1e8 E/h a force is the round-off of displacements times that: it differs by up
+# to 8e-9 when the matrix is gathered and factorised, too. Displacements do not.
+STIFF, STIFF_TOLERANCE = set(), 1e-8
 for method in ("projected penalty", "lagrange multiplier"):
     # Conjugate gradients on rows spread over the ranks, V-cycles of both kinds.
     iterative = [f"Boundaries/clamp/Enforcement = {method}",
                  "Linear solver/Kind = iterative"]
     if method == "projected penalty":
         iterative.append("Boundaries/clamp/Penalty factor = 1e8")
+        STIFF |= {f"{method}, iterative, {cells}" for cells in ("triangles", "hexes")}
     SCENES[f"{method}, iterative, triangles"] = (
         "quickstart.prm", [*COARSE, "Grid/Cells = triangles", *iterative])
     SCENES[f"{method}, iterative, hexes"] = (HERE / "ranks_bar_3d.prm", iterative)
@@ -78,14 +82,19 @@ def vector_of(name):
     return re.sub(r"[ _][xyz]$", "", name)
 
 
-def largest_difference(values, others):
+def largest_difference(values, others, title=None):
+    """In units of what is allowed, with the name of the result."""
     expect(values.keys() == others.keys(), "the names of results differ")
+    forces = [name for name in values if re.search(" F_[xyz]$| M_[xyz]$", name)]
+    allowed = {name: TOLERANCE for name in values}
+    if title in STIFF:
+        allowed.update((name, STIFF_TOLERANCE) for name in forces)
     sizes = {}
     for name, value in values.items():
         vector = vector_of(name)
         sizes[vector] = max(abs(value), sizes.get(vector, 0))
     scaled = {name: abs(value - others[name]) / (sizes[vector_of(name)] or 1)
-              for name, value in values.items()}
+              / allowed[name] for name, value in values.items()}
     name = max(scaled, key=scaled.get)
     return name, scaled[name]
 
@@ -113,10 +122,10 @@ def main():
             if n_ranks > 1 and title == "falling block":
                 check_crossing(folder)
         for n_ranks in (2, 3):
-            name, difference = largest_difference(ends[0], ends[n_ranks - 1])
-            print(f"{title}, {n_ranks} ranks: {difference / TOLERANCE:.1e} of "
-                  f"what is allowed ({name})")
-            expect(difference <= TOLERANCE,
+            name, difference = largest_difference(ends[0], ends[n_ranks - 1], title)
+            print(f"{title}, {n_ranks} ranks: {difference:.1e} of what is allowed "
+                  f"({name})")
+            expect(difference <= 1,
                    f"{name}: {ends[0][name]!r} and {ends[n_ranks - 1][name]!r}")
 
 
