@@ -61,6 +61,9 @@ namespace Impoint
                                                     counters,
                                                     seconds);
     system->add_term(std::make_unique<InternalForce<dim>>(*points));
+    if (scene.grid.ghost_factor() > 0)
+      system->add_ghost_penalty(scene.grid.ghost_factor(),
+                                dim == 2 ? scene.bodies.front().thickness : 1.);
     newton = std::make_unique<Newton<dim>>(scene.newton, *system, counters);
     for (const auto &measurement : scene.measurements)
       measurements.push_back(Measurements::create<dim>(file, measurement));

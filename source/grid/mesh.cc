@@ -158,6 +158,14 @@ namespace Impoint
                       "shifted as you like).",
                       Patterns::Selection("linear|quadratic|quadratic spline|"
                                           "cubic spline"));
+    prm.add_parameter(
+      "Ghost penalty",
+      ghost_penalty,
+      "Part of Young's modulus with which neighbours hold the functions of "
+      "cells filled by less than 0.3, so that the error does not depend on how "
+      "little that is: 1e-3 serves all bases, more adds to the error; 0: none; "
+      "-1: 1e-3 for 'quadratic', which fails without, none for the others.",
+      Patterns::Double(-1));
     prm.add_parameter("Refine where",
                       refine_where,
                       "Expression of x, y(, z): cells at whose centre it is "

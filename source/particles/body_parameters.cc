@@ -71,10 +71,7 @@ namespace Impoint
       "products of polynomials of degree n - 1 in each "
       "coordinate: a basis of degree p wants n = p + 1.",
       Patterns::Selection("centroid|gauss"));
-    prm.add_parameter("Outline",
-                      outline,
-                      "Clipped, 2D: corners 'x y; x y; ...' [m] instead of a "
-                      "mesh; more rings, such as holes, after '|'.");
+    declare_shape(prm);
     prm.add_parameter("Density",
                       density,
                       "Mass per volume [kg/m3].",
@@ -114,6 +111,38 @@ namespace Impoint
 
 
 
+  void BodyParameters::declare_shape(EntryHandler &prm)
+  {
+    prm.add_parameter("Outline",
+                      outline,
+                      "Clipped, 2D: corners 'x y; x y; ...' [m] instead of a "
+                      "mesh; more rings, such as holes, after '|'.");
+    prm.add_parameter(
+      "Signed distance",
+      signed_distance,
+      "Clipped, with 'Piece = gauss': expression of x, y(, z) instead of a "
+      "mesh, below 0 in the body, above 0 outside, such as the distance from "
+      "its surface [m]; smooth where it is 0.");
+  }
+
+
+
+  void BodyParameters::check_signed_distance(const ParameterFile &file) const
+  {
+    const std::string path = section + "/Signed distance";
+    if (points != "clipped" || piece != "gauss")
+      throw file.error(path,
+                       "a signed distance without Gauss rules in clipped cells",
+                       "Set 'Points = clipped' and 'Piece = gauss'.");
+    if (!outline.empty() || has_mesh(mesh))
+      throw file.error(path,
+                       "the body '" + name + "' has a signed distance and " +
+                         (outline.empty() ? "a mesh" : "an outline"),
+                       "Take one of them away.");
+  }
+
+
+
   void BodyParameters::check(const ParameterFile &file,
                              const unsigned int   dim) const
   {
@@ -121,7 +150,9 @@ namespace Impoint
       throw file.error(section + "/Thickness",
                        "a thickness in 3D",
                        "Take the entry away.");
-    if (!outline.empty())
+    if (!signed_distance.empty())
+      check_signed_distance(file);
+    else if (!outline.empty())
       check_outline(file, dim);
     else if (has_mesh(mesh))
       mesh.check(file, dim);

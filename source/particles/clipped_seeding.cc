@@ -315,14 +315,17 @@ namespace Impoint
 
 
 
-    /** Throws on all ranks if the points don't fill the body's parts. */
+    /** The body's volume over that of its points, which lack what was too small
+     * a part of a cell. Throws on all ranks if they don't fill the body's
+     * parts.
+     */
     template <int dim>
-    void check_volume(const ParameterFile                    &file,
-                      const BodyParameters                   &body,
-                      const BackgroundGrid<dim>              &grid,
-                      const std::vector<ConvexPolytope<dim>> &parts,
-                      const std::vector<SeededPoint<dim>>    &points,
-                      const bool                              overlapping)
+    double check_volume(const ParameterFile                    &file,
+                        const BodyParameters                   &body,
+                        const BackgroundGrid<dim>              &grid,
+                        const std::vector<ConvexPolytope<dim>> &parts,
+                        const std::vector<SeededPoint<dim>>    &points,
+                        const bool                              overlapping)
     {
       const std::string place =
         !body.outline.empty()  ? body.section + "/Outline" :
@@ -346,6 +349,7 @@ namespace Impoint
                            " of the body '" + body.name +
                            "' lies outside of the grid",
                          "Enlarge the grid, or move the body.");
+      return wanted / filled;
     }
   } // namespace
 
@@ -369,13 +373,12 @@ namespace Impoint
         if (!in_cell.empty())
           groups.push_back({0, grid.cell(c)->id(), unsigned(in_cell.size())});
       }
-    check_volume(file, body, grid, parts, points, filler.saw_overlap());
+    const double whole =
+      check_volume(file, body, grid, parts, points, filler.saw_overlap());
+    for (auto &point : points)
+      point.volume *= whole;
 
-    const auto  first = first_numbers(groups, grid.communicator());
-    std::size_t p     = 0;
-    for (unsigned int g = 0; g < groups.size(); ++g)
-      for (unsigned int i = 0; i < groups[g].n_particles; ++i, ++p)
-        points[p].number = first[g] + i;
+    number_particles(groups, grid.communicator(), points);
     return points;
   }
 

@@ -138,6 +138,8 @@ namespace Impoint
                                           const BodyParameters      &body,
                                           const BackgroundGrid<dim> &grid)
   {
+    if (!body.signed_distance.empty())
+      return seed_signed_distance(file, body, grid);
     return body.points == "clipped" ? seed_clipped(file, body, grid) :
                                       seed_body_mesh(file, body, grid);
   }

@@ -20,20 +20,11 @@ namespace Impoint
 
 
   template <int dim>
-  Links Assembly<dim>::find_links(const double start, const double end)
-  {
-    Links links;
-    for (const auto &method : methods)
-      method->find_links(start, end, active, links);
-    return links;
-  }
-
-
-
-  template <int dim>
   void Assembly<dim>::new_active_set()
   {
     empty_cells.reinit();
+    if (ghost_penalty)
+      ghost_penalty->new_active_set();
   }
 
 
@@ -137,14 +128,12 @@ namespace Impoint
                                         const bool    tangent_wanted,
                                         const Part    part)
   {
-    std::vector<double> accelerations;
-    CellSystem          system;
-    unsigned int        next_starved = 0;
-    const unsigned int  first =
+    CellSystem         system;
+    unsigned int       next_starved = 0;
+    const unsigned int first =
       part == Part::constraints ? active.n_material_cells() : 0;
     for (unsigned int k = first; k < active.n_cells(); ++k)
       {
-        const auto nodes = active.nodes(k);
         gather(k, u, cell_u);
         begin_cell(k, tangent_wanted, system);
         if (k < active.n_material_cells())
@@ -157,24 +146,34 @@ namespace Impoint
               hourglass.add(next_starved++, system);
             if (inertia != nullptr && inertia->consistent())
               {
-                accelerations.resize(nodes.size() * dim);
-                for (unsigned int a = 0; a < nodes.size(); ++a)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    accelerations[a * dim + d] =
-                      inertia->balanced_acceleration(nodes[a] * dim + d,
-                                                     cell_u[a * dim + d]);
+                accelerations_of(k);
                 consistent_mass.add(k,
-                                    accelerations.data(),
+                                    cell_accelerations.data(),
                                     inertia->alpha(),
                                     system);
               }
           }
-        else
+        else if (!ghost_penalty || !ghost_penalty->holds(k))
           empty_cells.add(k, system);
         scatter_residual(k);
         if (tangent_wanted)
           scatter(k, problem->matrix);
       }
+  }
+
+
+
+  /** Those of group k that balance forces, at its cell_u. */
+  template <int dim>
+  void Assembly<dim>::accelerations_of(const unsigned int k)
+  {
+    const auto nodes = active.nodes(k);
+    cell_accelerations.resize(nodes.size() * dim);
+    for (unsigned int a = 0; a < nodes.size(); ++a)
+      for (unsigned int d = 0; d < dim; ++d)
+        cell_accelerations[a * dim + d] =
+          inertia->balanced_acceleration(nodes[a] * dim + d,
+                                         cell_u[a * dim + d]);
   }
 
 
@@ -298,6 +297,9 @@ namespace Impoint
       if (!message.empty())
         throw StepFailed(message);
 
+    // at rest it has no force
+    if (ghost_penalty && part == Part::all)
+      assemble_ghost_penalty(u, tangent_wanted);
     if (inertia != nullptr &&
         (part == Part::constraints || !inertia->consistent()))
       add_inertia(u, tangent_wanted);

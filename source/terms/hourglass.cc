@@ -62,17 +62,7 @@ namespace Impoint
   template <int dim>
   void Hourglass<dim>::add(const unsigned int i, CellSystem &system) const
   {
-    const std::vector<double> &matrix = matrices[i];
-    const unsigned int         n      = system.n;
-    for (unsigned int a = 0; a < n; ++a)
-      for (unsigned int b = 0; b < n; ++b)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double entry = matrix[a * n + b];
-            system.residual[a * dim + d] += entry * system.u[b * dim + d];
-            if (system.matrix)
-              system.matrix[(a * n + b) * dim * dim + d * dim + d] += entry;
-          }
+    add_for_components<dim>(matrices[i], 1., system.u, 1., system);
   }
 
   template class Hourglass<2>;

@@ -55,6 +55,17 @@ namespace Impoint
     // linear|quadratic|quadratic spline|cubic spline
     std::string basis = "linear";
 
+    double ghost_penalty = -1; // entry; below 0: automatic
+
+    /** Factor of Young's modulus; 0: no ghost penalty. */
+    double ghost_factor() const
+    {
+      constexpr double smallest_that_serves = 1e-3;
+      if (ghost_penalty >= 0)
+        return ghost_penalty;
+      return basis == "quadratic" ? smallest_that_serves : 0.;
+    }
+
     // expression of x: cells whose centre has a value > 0 are refined further
     std::string  refine_where;
     unsigned int refine_times = 1;

@@ -8,6 +8,8 @@
 
 namespace Impoint
 {
+  class EntryHandler;
+
   /**
    * A body: its shape, how points fill it, its density and initial state.
    *
@@ -34,10 +36,14 @@ namespace Impoint
     std::string  piece              = "centroid"; // clipped: centroid|gauss
     std::string  outline; // clipped: 2D polygon "x y; ..."; empty: the mesh
 
+    std::string signed_distance; // clipped: expression; empty: another shape
+
     double density   = 0; // [kg/m3]
     double thickness = 1; // 2D [m]
 
   private:
+    void declare_shape(EntryHandler &prm);
+    void check_signed_distance(const ParameterFile &file) const;
     void check_outline(const ParameterFile &file, const unsigned int dim) const;
     void check_points(const ParameterFile &file, const unsigned int dim) const;
   };

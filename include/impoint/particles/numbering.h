@@ -27,6 +27,20 @@ namespace Impoint
   std::vector<std::size_t>
   first_numbers(const std::vector<ParticleGroup> &groups,
                 const MPI_Comm                    communicator);
+
+  /** Sets the numbers of @p particles, which stand in the order of the groups.
+   * Collective. */
+  template <typename Particle>
+  void number_particles(const std::vector<ParticleGroup> &groups,
+                        const MPI_Comm                    communicator,
+                        std::vector<Particle>            &particles)
+  {
+    const auto  first = first_numbers(groups, communicator);
+    std::size_t p     = 0;
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      for (unsigned int i = 0; i < groups[g].n_particles; ++i, ++p)
+        particles[p].number = first[g] + i;
+  }
 } // namespace Impoint
 
 #endif

@@ -39,12 +39,22 @@ namespace Impoint
                                           const BackgroundGrid<dim> &grid);
 
   /** For bodies with 'Points = clipped': what each cell of the grid holds of
-   * the body becomes points. A part of a cell's volume below 1e-12 is left out,
-   * and all but such a part counts as all of it. Collective. */
+   * the body becomes points. A part of a cell's volume below 1e-12 gets none,
+   * all but such a part counts as all of it, and the points share what that
+   * lacks of the body's volume. Collective. */
   template <int dim>
   std::vector<SeededPoint<dim>> seed_clipped(const ParameterFile       &file,
                                              const BodyParameters      &body,
                                              const BackgroundGrid<dim> &grid);
+
+  /** For bodies with a 'Signed distance': a rule of Saye for the part of each
+   * cell where it is negative (SIAM J. Sci. Comput. 37, 2015), on the cubic
+   * through its values in the cell. Collective. */
+  template <int dim>
+  std::vector<SeededPoint<dim>>
+  seed_signed_distance(const ParameterFile       &file,
+                       const BodyParameters      &body,
+                       const BackgroundGrid<dim> &grid);
 
   /**
    * The boundary's particles that lie in this rank's own cells. Those on a face

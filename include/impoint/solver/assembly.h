@@ -6,6 +6,7 @@
 #include <impoint/solver/linear_solver.h>
 #include <impoint/terms/consistent_mass.h>
 #include <impoint/terms/empty_cells.h>
+#include <impoint/terms/ghost_penalty.h>
 #include <impoint/terms/hourglass.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -39,6 +40,9 @@ namespace Impoint
 
     /** Terms that act in material cells, added once. */
     void add_term(std::unique_ptr<Term<dim>> term);
+
+    /** Holds what is filled in part only; see GhostPenalty. */
+    void add_ghost_penalty(const double factor, const double thickness);
 
     /** What reaches beyond a cell in a step from @p start to @p end, of the
      * cells that are active now. Collective. */
@@ -90,6 +94,8 @@ namespace Impoint
                       const Vector      &u,
                       const bool         tangent_wanted,
                       const Function    &contribute);
+    void assemble_ghost_penalty(const Vector &u, const bool tangent_wanted);
+    void accelerations_of(const unsigned int k);
     void add_inertia(const Vector &u, const bool tangent_wanted);
     void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
     void scatter_residual(const unsigned int k);
@@ -101,6 +107,7 @@ namespace Impoint
     Hourglass<dim>                          hourglass;
     ConsistentMass<dim>                     consistent_mass;
     std::vector<std::unique_ptr<Term<dim>>> terms;
+    std::unique_ptr<GhostPenalty<dim>>      ghost_penalty; // or null
 
     // of the call of assemble() at work
     LinearProblem<dim> *problem = nullptr;
@@ -108,7 +115,7 @@ namespace Impoint
     Vector              rest;
 
     // of the group at work
-    std::vector<double> cell_u, cell_residual, cell_matrix;
+    std::vector<double> cell_u, cell_accelerations, cell_residual, cell_matrix;
   };
 } // namespace Impoint
 

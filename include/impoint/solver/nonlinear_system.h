@@ -36,6 +36,10 @@ namespace Impoint
     void add_term(std::unique_ptr<Term<dim>> term);
 
     /** See Assembly. */
+    void add_ghost_penalty(const double factor, const double thickness)
+    {
+      assembly.add_ghost_penalty(factor, thickness);
+    }
     Links find_links(const double start, const double end)
     {
       return assembly.find_links(start, end);

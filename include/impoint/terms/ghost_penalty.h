@@ -1,0 +1,113 @@
+#ifndef impoint_terms_ghost_penalty_h
+#define impoint_terms_ghost_penalty_h
+
+#include <impoint/grid/active_nodes.h>
+#include <impoint/particles/material_points.h>
+#include <impoint/terms/term.h>
+
+#include <vector>
+
+namespace Impoint
+{
+  /**
+   * Holds the functions of cells that are filled in part only, by those of
+   * their neighbours: a function that sees but a sliver of material has next to
+   * no stiffness and mass of its own, and conditions or loads on the sliver
+   * move it anywhere.
+   *
+   * The energy of a face is factor E / (2 h^2) int |u_1 - u_2|^2 over both its
+   * cells, u_1 and u_2 being the polynomials of the one and the other cell,
+   * continued (J. Preuss, Higher order unfitted isoparametric space-time FEM on
+   * moving domains, 2018; in the limit that of jumps h^(2k-1) [d^k u/dn^k]^2 of
+   * all normal derivatives, without the need to know them). A polynomial of the
+   * basis' degree leaves no force: rigid motions, and all that the basis
+   * reproduces, so the order of its error stays.
+   *
+   * It acts on the displacements since the grid was reset, which the grid
+   * knows; so its forces do not pile up where it is reset every step. In
+   * dynamics with consistent mass the same with rho in the place of E / h^2
+   * acts on accelerations.
+   */
+  template <int dim>
+  class GhostPenalty
+  {
+  public:
+    /** @p thickness: of the bodies, 1 in 3D. */
+    GhostPenalty(const ActiveNodes<dim>    &active,
+                 const MaterialPoints<dim> &points,
+                 const double               factor,
+                 const double               thickness);
+
+    /** Appends the faces to act on. Collective. */
+    void find_links(Links &links);
+
+    /** After the nodes of the links were numbered. */
+    void new_active_set();
+
+    unsigned int n_links() const
+    {
+      return faces.size();
+    }
+
+    /** Group of nodes of its link @p l. */
+    unsigned int group(const unsigned int l) const
+    {
+      return active.link(first_link + l);
+    }
+
+    /** Whether a neighbour with material holds active cell @p k. */
+    bool holds(const unsigned int k) const
+    {
+      return is_held[k];
+    }
+
+    void add(const unsigned int l, CellSystem &system) const;
+
+    /** Mass times @p accelerations of the nodes, and alpha times it. */
+    void add_mass(const unsigned int l,
+                  const double      *accelerations,
+                  const double       alpha,
+                  CellSystem        &system) const;
+
+  private:
+    /** What an active cell holds. */
+    struct Content
+    {
+      double filled  = 0; // part of its volume, now
+      double young   = 0; // [Pa], 0 without material
+      double density = 0; // [kg/m3], 0 without material
+
+      template <class Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &filled &young &density;
+      }
+    };
+
+    struct Face
+    {
+      unsigned int first, second; // cells
+      double       stiffness;     // factor E / h^2
+      double       density;       // factor rho
+
+      std::vector<double> matrix; // n x n, the same for all components
+    };
+
+    Content              content(const unsigned int k) const;
+    std::vector<Content> contents_with_ghosts() const;
+    void                 share(std::vector<Content> &contents) const;
+    bool                 is_link(const unsigned int          c,
+                                 const unsigned int          f,
+                                 const std::vector<Content> &contents) const;
+    void                 integrate(const unsigned int l);
+
+    const ActiveNodes<dim>    &active;
+    const MaterialPoints<dim> &points;
+    const double               factor, thickness;
+    std::vector<Face>          faces;
+    std::vector<char>          is_held;        // per active cell
+    unsigned int               first_link = 0; // among all links
+  };
+} // namespace Impoint
+
+#endif

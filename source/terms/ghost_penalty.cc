@@ -1,0 +1,257 @@
+#include <impoint/terms/ghost_penalty.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <map>
+
+namespace Impoint
+{
+  namespace
+  {
+    // A cell filled by less than this part is held by its neighbours. Measured
+    // on cut cantilevers: 0.3 keeps the worst cut as near to the others as 1
+    // does, and disturbs less.
+    constexpr double enough = 0.3;
+  } // namespace
+
+
+
+  template <int dim>
+  GhostPenalty<dim>::GhostPenalty(const ActiveNodes<dim>    &active,
+                                  const MaterialPoints<dim> &points,
+                                  const double               factor,
+                                  const double               thickness)
+    : active(active)
+    , points(points)
+    , factor(factor)
+    , thickness(thickness)
+  {}
+
+
+
+  template <int dim>
+  typename GhostPenalty<dim>::Content
+  GhostPenalty<dim>::content(const unsigned int k) const
+  {
+    Content result;
+    if (k >= active.n_material_cells())
+      return result;
+    const auto &range  = points.ranges()[k];
+    double      volume = 0, initial = 0, mass = 0;
+    for (unsigned int p = range.begin; p < range.end; ++p)
+      {
+        const double *state = points.data(p);
+        initial += state[points.slots().volume];
+        volume += state[points.slots().volume] *
+                  determinant(points.deformation_gradient(p));
+        mass += state[points.slots().mass];
+        result.young = std::max(result.young, points.material(p).young());
+      }
+    result.filled =
+      volume / (thickness * active.basis().grid().volume(active.cell(k)));
+    result.density = mass / initial;
+    return result;
+  }
+
+
+
+  /** Of the grid's cells that this rank knows; filled < 0: the cell is not
+   * active. */
+  template <int dim>
+  std::vector<typename GhostPenalty<dim>::Content>
+  GhostPenalty<dim>::contents_with_ghosts() const
+  {
+    Content nothing;
+    nothing.filled = -1;
+    std::vector<Content> contents(active.basis().grid().n_cells(), nothing);
+    for (unsigned int k = 0; k < active.n_cells(); ++k)
+      contents[active.cell(k)] = content(k);
+    if (Utilities::MPI::n_mpi_processes(active.basis().grid().communicator()) >
+        1)
+      share(contents);
+    return contents;
+  }
+
+
+
+  /** Asks other ranks for their cells at faces of active ones. */
+  template <int dim>
+  void GhostPenalty<dim>::share(std::vector<Content> &contents) const
+  {
+    const auto &grid = active.basis().grid();
+    std::map<unsigned int, std::vector<CellId::binary_type>> questions;
+    std::map<unsigned int, std::vector<unsigned int>>        asked;
+    for (unsigned int k = 0; k < active.n_cells(); ++k)
+      {
+        const auto &cell = grid.cell(active.cell(k));
+        for (const unsigned int f : cell->face_indices())
+          if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
+              cell->neighbor(f)->is_ghost())
+            {
+              const auto &neighbor = cell->neighbor(f);
+              questions[neighbor->subdomain_id()].push_back(
+                neighbor->id().template to_binary<dim>());
+              asked[neighbor->subdomain_id()].push_back(
+                neighbor->active_cell_index());
+            }
+      }
+    std::map<unsigned int, std::vector<Content>> answers;
+    for (const auto &question :
+         Utilities::MPI::some_to_some(grid.communicator(), questions))
+      for (const auto &cell : question.second)
+        answers[question.first].push_back(
+          contents[grid.triangulation()
+                     .create_cell_iterator(CellId(cell))
+                     ->active_cell_index()]);
+    for (const auto &answer :
+         Utilities::MPI::some_to_some(grid.communicator(), answers))
+      for (unsigned int i = 0; i < answer.second.size(); ++i)
+        contents[asked.at(answer.first)[i]] = answer.second[i];
+  }
+
+
+
+  /** Whether this rank links the own active cell @p c with its neighbour at
+   * face
+   * @p f: each face once. Of faces with hanging nodes the finer cells do. */
+  template <int dim>
+  bool GhostPenalty<dim>::is_link(const unsigned int          c,
+                                  const unsigned int          f,
+                                  const std::vector<Content> &contents) const
+  {
+    const auto        &cell     = active.basis().grid().cell(c);
+    const auto        &neighbor = cell->neighbor(f);
+    const unsigned int n        = neighbor->active_cell_index();
+    if (neighbor->level() == cell->level() &&
+        std::make_pair(cell->subdomain_id(), c) >
+          std::make_pair(neighbor->subdomain_id(), n))
+      return false;
+    return contents[n].filled >= 0 &&
+           std::min(contents[c].filled, contents[n].filled) < enough;
+  }
+
+
+
+  template <int dim>
+  void GhostPenalty<dim>::find_links(Links &links)
+  {
+    const auto &grid     = active.basis().grid();
+    const auto  contents = contents_with_ghosts();
+    // the softer one holds enough; a cell without material has no say
+    const auto lower = [&](const double a, const double b) {
+      return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);
+    };
+    first_link = links.size();
+    std::vector<Face> before;
+    before.swap(faces);
+    is_held.assign(active.n_cells(), false);
+    for (unsigned int k = 0; k < active.n_cells(); ++k)
+      {
+        const unsigned int c    = active.cell(k);
+        const auto        &cell = grid.cell(c);
+        for (const unsigned int f : cell->face_indices())
+          {
+            if (cell->at_boundary(f) || !cell->neighbor(f)->is_active())
+              continue;
+            is_held[k] |=
+              contents[cell->neighbor(f)->active_cell_index()].filled > 0;
+            if (!is_link(c, f, contents))
+              continue;
+            const unsigned int n = cell->neighbor(f)->active_cell_index();
+            const double       h = 0.5 * (grid.volume(c) + grid.volume(n)) /
+                             cell->face(f)->measure();
+            faces.emplace_back();
+            faces.back().first  = c;
+            faces.back().second = n;
+            faces.back().stiffness =
+              factor * lower(contents[c].young, contents[n].young) / (h * h);
+            faces.back().density =
+              factor * lower(contents[c].density, contents[n].density);
+            links.add({c, n});
+            // those of the same links stay, if no other link changes
+            const std::size_t l = faces.size() - 1;
+            if (l < before.size() && before[l].first == c &&
+                before[l].second == n)
+              faces.back().matrix.swap(before[l].matrix);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void GhostPenalty<dim>::new_active_set()
+  {
+    for (unsigned int l = 0; l < faces.size(); ++l)
+      integrate(l);
+  }
+
+
+
+  template <int dim>
+  void GhostPenalty<dim>::integrate(const unsigned int l)
+  {
+    const auto           &basis = active.basis();
+    const auto           &grid  = basis.grid();
+    Face                 &face  = faces[l];
+    const Quadrature<dim> rule =
+      grid.simplicial() ?
+        static_cast<Quadrature<dim>>(QGaussSimplex<dim>(basis.degree() + 1)) :
+        static_cast<Quadrature<dim>>(QGauss<dim>(basis.degree() + 1));
+    double rule_volume = 0;
+    for (const double weight : rule.get_weights())
+      rule_volume += weight;
+
+    const unsigned int  n = active.nodes(group(l)).size();
+    std::vector<double> support, difference(n);
+    face.matrix.assign(n * n, 0.);
+    const auto subtract =
+      [&](const unsigned int c, const double sign, const Point<dim> &x) {
+        support.resize(basis.support_size(c));
+        basis.evaluate(c, grid.to_reference(c, x), support.data());
+        const auto places = active.places(group(l), c);
+        for (unsigned int a = 0; a < places.size(); ++a)
+          difference[places[a]] += sign * support[a];
+      };
+    for (const unsigned int c : {face.first, face.second})
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const Point<dim> x =
+            grid.mapping().transform_unit_to_real_cell(grid.cell(c),
+                                                       rule.point(q));
+          std::fill(difference.begin(), difference.end(), 0.);
+          subtract(face.first, 1., x);
+          subtract(face.second, -1., x);
+          const double weight =
+            thickness * rule.weight(q) / rule_volume * grid.volume(c);
+          for (unsigned int a = 0; a < n; ++a)
+            for (unsigned int b = 0; b < n; ++b)
+              face.matrix[a * n + b] += weight * difference[a] * difference[b];
+        }
+  }
+
+
+
+  template <int dim>
+  void GhostPenalty<dim>::add(const unsigned int l, CellSystem &system) const
+  {
+    add_for_components<dim>(
+      faces[l].matrix, faces[l].stiffness, system.u, 1., system);
+  }
+
+
+
+  template <int dim>
+  void GhostPenalty<dim>::add_mass(const unsigned int l,
+                                   const double      *accelerations,
+                                   const double       alpha,
+                                   CellSystem        &system) const
+  {
+    add_for_components<dim>(
+      faces[l].matrix, faces[l].density, accelerations, alpha, system);
+  }
+
+  template class GhostPenalty<2>;
+  template class GhostPenalty<3>;
+} // namespace Impoint
