@@ -48,11 +48,13 @@ namespace Impoint
     prm.add_parameter(
       "Superfluous constraints",
       superfluous,
-      "Cells whose nodes their constrained neighbours determine: keep or "
-      "remove their constraint (L Section 3.2.2). Kept ones make multipliers "
-      "oscillate. automatic: removed by 'lagrange multiplier' in 2D "
-      "only.",
-      Patterns::Selection("automatic|keep|remove"));
+      "Multipliers of more cells than the displacements can follow oscillate: "
+      "keep them all; share one among neighbouring cells until it has 0.4 "
+      "h^(dim-1) of the boundary (0.8 in triangles and tetrahedra); remove "
+      "those of cells whose nodes their constrained neighbours determine (L "
+      "Section 3.2.2), which imposes linear displacements to about 1e-3 "
+      "only. automatic: share by 'lagrange multiplier', keep by others.",
+      Patterns::Selection("automatic|keep|remove|share"));
     prm.add_parameter("Band width",
                       band_width,
                       "Width delta of the band of an implicit boundary, in "
