@@ -48,12 +48,10 @@ namespace Impoint
     prm.add_parameter(
       "Superfluous constraints",
       superfluous,
-      "Multipliers of more cells than the displacements can follow oscillate: "
-      "keep them all; share one among neighbouring cells until it has 0.4 "
-      "h^(dim-1) of the boundary (0.8 in triangles and tetrahedra); remove "
-      "those of cells whose nodes their constrained neighbours determine (L "
-      "Section 3.2.2), which imposes linear displacements to about 1e-3 "
-      "only. automatic: share by 'lagrange multiplier', keep by others.",
+      "Multipliers of more cells than displacements can follow oscillate: keep "
+      "all; share one among neighbours until it has 0.4 h^(dim-1) of the "
+      "boundary (simplices: 0.8); or remove superfluous ones (L Section "
+      "3.2.2). automatic: share by 'lagrange multiplier', else keep.",
       Patterns::Selection("automatic|keep|remove|share"));
     prm.add_parameter("Band width",
                       band_width,

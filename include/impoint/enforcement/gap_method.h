@@ -62,6 +62,9 @@ namespace Impoint
       /** Whether the small-cut rule changes the values in range @p r. */
       virtual bool raises_small_values(const unsigned int r) const;
 
+      /** Whether neighbouring cells share constraints (SharedConstraints). */
+      bool shares_constraints() const;
+
       void make_links(const ActiveNodes<dim> &active, Links &links) override;
 
       double unit(const unsigned int r) const; // E/h [Pa/m]
@@ -80,7 +83,6 @@ namespace Impoint
     private:
       bool takes_part(const unsigned int r) const;
       bool removes_superfluous() const;
-      bool shares_constraints() const;
       void make_link_patches();
 
       template <typename Function>
