@@ -20,9 +20,14 @@ from vtu import read_rows  # noqa: E402
 
 MOMENT = 313920.
 SIZE = 1 / 8
-# What it must be, or must be above without sharing: {kind: ...}
+# Of the variation over the exact one's; without sharing it is above the second.
 LARGEST = 1.5
 OSCILLATES = {"c": 5., "d": 20.}
+# At other cuts of unstructured triangles 1.5 is missed: 1.8 at 0.1.
+LARGEST_AT_ANY_CUT = {"a": 1.5, "c": 1.5, "d": 2.}
+# Of the tip over numbers of particles: where cells are cut anyhow, they are also
+# the rule of integration along the clamp.
+SPREAD = {"a": 1e-12, "b": 2e-4, "c": 1e-12, "d": 1e-3}
 
 
 def run(kind, *settings, cut=0.5):
@@ -70,7 +75,7 @@ def check_numbers_of_particles(kind):
     spread = max(tips) / min(tips) - 1
     print(f"kind {kind}, tip over numbers of particles: {abs(spread):.1e}",
           flush=True)
-    return abs(spread)
+    expect(abs(spread) < SPREAD[kind], f"kind {kind}: tips {tips}")
 
 
 def main():
@@ -82,8 +87,10 @@ def main():
         for cut in (1e-9, 0.1, 0.9, 1 - 1e-9):
             reactions = run(kind, cut=cut)
             balance(f"kind {kind}, cut at {cut:.2g}", reactions)
+            found = variation()
             print(f"  tip {reactions['tip u_y']['error']:.2e}, variation "
-                  f"{variation():.2f}", flush=True)
+                  f"{found:.2f}", flush=True)
+            expect(found < LARGEST_AT_ANY_CUT[kind], f"variation {found}")
 
 
 main()
