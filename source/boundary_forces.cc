@@ -46,6 +46,11 @@ namespace Impoint
       {
         auto &particles       = methods[m]->particles();
         nonconforming[m].name = particles.name();
+        if (methods[m]->is_active())
+          methods[m]->end_links([&](const unsigned int   l,
+                                    std::vector<double> &link_u) {
+            system.gather(active.link(methods[m]->begin_link() + l), u, link_u);
+          });
         for (unsigned int r = 0; r < particles.ranges().size(); ++r)
           {
             const auto        &range = particles.ranges()[r];

@@ -48,11 +48,11 @@ namespace Impoint
     prm.add_parameter(
       "Superfluous constraints",
       superfluous,
-      "Cells whose nodes their constrained neighbours determine: keep or "
-      "remove their constraint (L Section 3.2.2). Kept ones make multipliers "
-      "oscillate. automatic: removed by 'lagrange multiplier' in 2D "
-      "only.",
-      Patterns::Selection("automatic|keep|remove"));
+      "Multipliers of more cells than displacements can follow oscillate: keep "
+      "all; share one among neighbours until it has 0.4 h^(dim-1) of the "
+      "boundary (simplices: 0.8); or remove superfluous ones (L Section "
+      "3.2.2). automatic: share by 'lagrange multiplier', else keep.",
+      Patterns::Selection("automatic|keep|remove|share"));
     prm.add_parameter("Band width",
                       band_width,
                       "Width delta of the band of an implicit boundary, in "

@@ -108,6 +108,12 @@ namespace Impoint
 
 
     template <int dim>
+    void Method<dim>::end_links(const LinkDisplacements &)
+    {}
+
+
+
+    template <int dim>
     Tensor<1, dim> Method<dim>::displacement(const unsigned int b,
                                              const unsigned int n,
                                              const double      *u) const

@@ -70,9 +70,7 @@ namespace Impoint
     template <int dim>
     bool GapMethod<dim>::removes_superfluous() const
     {
-      return this->condition.superfluous == "remove" ||
-             (this->condition.superfluous == "automatic" && dim == 2 &&
-              this->condition.enforcement == "lagrange multiplier");
+      return this->condition.superfluous == "remove";
     }
 
 
@@ -123,6 +121,7 @@ namespace Impoint
       left_out.clear();
       if (removes_superfluous())
         left_out = superfluous_constraints(*this->boundary, *step.active);
+      make_link_patches();
     }
 
 
@@ -140,7 +139,7 @@ namespace Impoint
     void GapMethod<dim>::for_patches(const unsigned int r,
                                      const Function    &function) const
     {
-      if (!takes_part(r))
+      if (!takes_part(r) || shared.contains(r))
         return;
       const auto &range = this->boundary->ranges()[r];
       if (projected)
@@ -164,21 +163,33 @@ namespace Impoint
 
 
 
+    /** @p r: the range whose stiffness E/h is the patch's. */
+    template <int dim>
+    void GapMethod<dim>::add_patch(const Patch                  &patch,
+                                   const typename Patch::Answer &answer,
+                                   const unsigned int            r,
+                                   const Strength                strength,
+                                   CellSystem                   &system) const
+    {
+      patch.add_force(answer.traction, system);
+      if (system.matrix == nullptr)
+        return;
+      const double part =
+        strength == Strength::exact ?
+          1. :
+          std::min(1., moderate_factor * unit(r) / patch.law.stiffness());
+      patch.add_stiffness(part * answer.stiffness, system);
+    }
+
+
+
     template <int dim>
     void GapMethod<dim>::add(const unsigned int r,
                              const Strength     strength,
                              CellSystem        &system) const
     {
       for_patches(r, [&](const Patch &patch) {
-        const auto answer = this->answer(patch, system.u);
-        patch.add_force(answer.traction, system);
-        if (system.matrix == nullptr)
-          return;
-        const double part =
-          strength == Strength::exact ?
-            1. :
-            std::min(1., moderate_factor * unit(r) / patch.law.stiffness());
-        patch.add_stiffness(part * answer.stiffness, system);
+        add_patch(patch, answer(patch, system.u), r, strength, system);
       });
     }
 
@@ -206,8 +217,15 @@ namespace Impoint
     {
       std::vector<double> values;
       if (augmented())
-        for (const Tensor<1, dim> &lambda : multiplier)
-          values.insert(values.end(), lambda.begin_raw(), lambda.end_raw());
+        {
+          const auto append = [&](const Tensor<1, dim> &lambda) {
+            values.insert(values.end(), lambda.begin_raw(), lambda.end_raw());
+          };
+          for (const Tensor<1, dim> &lambda : multiplier)
+            append(lambda);
+          for (const Patch &patch : link_patches)
+            append(patch.multiplier);
+        }
       return values;
     }
 
@@ -217,7 +235,11 @@ namespace Impoint
     void GapMethod<dim>::set_multipliers(const std::vector<double> &values)
     {
       for (unsigned int i = 0; i < values.size(); ++i)
-        multiplier[i / dim][i % dim] = values[i];
+        {
+          const unsigned int k = i / dim, n = multiplier.size();
+          (k < n ? multiplier[k] : link_patches[k - n].multiplier)[i % dim] =
+            values[i];
+        }
     }
 
 
@@ -238,8 +260,16 @@ namespace Impoint
       for (unsigned int b = range.begin; b < range.end; ++b)
         for (const unsigned int slot : {slots.force, slots.multiplier})
           this->boundary->set_vector(b, slot, Tensor<1, dim>());
+      if (u != nullptr && shared.contains(r))
+        {
+          typename Patch::Answer answer;
+          answer.traction = shared_tractions[r];
+          return store(r, make_patch(r, range.begin, range.end), answer, u);
+        }
       if (u != nullptr && takes_part(r))
-        return for_patches(r, [&](const Patch &patch) { store(r, patch, u); });
+        return for_patches(r, [&](const Patch &patch) {
+          store(r, patch, answer(patch, u), u);
+        });
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
           Tensor<1, dim> gap; // none to what comes here next
@@ -252,12 +282,12 @@ namespace Impoint
 
 
     template <int dim>
-    void GapMethod<dim>::store(const unsigned int r,
-                               const Patch       &patch,
-                               const double      *u)
+    void GapMethod<dim>::store(const unsigned int            r,
+                               const Patch                  &patch,
+                               const typename Patch::Answer &answer,
+                               const double                 *u)
     {
-      const auto &slots  = this->boundary->slots();
-      const auto  answer = this->answer(patch, u);
+      const auto &slots = this->boundary->slots();
       for (unsigned int b = patch.begin; b < patch.end; ++b)
         {
           const Patch    alone = this->alone(r, b);

@@ -10,7 +10,8 @@ namespace Impoint
     {
       // In units of E/h. A linear solve reduces the gap by this factor, and
       // looses its reciprocal in digits of the material's stiffness.
-      constexpr double best_factor = 1e6;
+      // Constraints that cells share differ enough for the smaller factor.
+      constexpr double best_factor = 1e6, best_shared_factor = 1e4;
     } // namespace
 
 
@@ -34,9 +35,12 @@ namespace Impoint
                                              const double) const
     {
       TractionLaw law;
-      law.augmented = true;
-      law.gamma =
-        user_chooses_factor ? this->factor(r) : best_factor * this->unit(r);
+      law.augmented     = true;
+      const bool shared = this->shares_constraints() &&
+                          this->current.active->basis().degree() == 1;
+      law.gamma = user_chooses_factor ?
+                    this->factor(r) :
+                    (shared ? best_shared_factor : best_factor) * this->unit(r);
       return law;
     }
 

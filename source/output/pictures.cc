@@ -1,4 +1,5 @@
 #include <impoint/output/pictures.h>
+#include <impoint/particles/smoothed_forces.h>
 
 namespace Impoint
 {
@@ -66,31 +67,43 @@ namespace Impoint
 
   template <int dim>
   PointFields<dim> Pictures<dim>::boundary(
-    const std::vector<const BoundaryParticles<dim> *> &boundaries) const
+    const std::vector<const BoundaryParticles<dim> *> &boundaries,
+    const Basis<dim>                                  &basis) const
   {
     PointFields<dim> result;
     NamedField       force{"force", dim, {}}, gap{"gap", dim, {}};
     NamedField       normal{"normal", dim, {}};
+    NamedField       traction{"traction", dim, {}};
+    NamedField       smoothed{"smoothed force", dim, {}};
     NamedField       area{"area", 1, {}}, number{"boundary", 1, {}};
     for (unsigned int i = 0; i < boundaries.size(); ++i)
-      for (unsigned int b = 0; b < boundaries[i]->n(); ++b)
-        {
-          const auto   &particles = *boundaries[i];
-          const auto   &slots     = particles.slots();
-          const double *state     = particles.data(b);
-          result.positions.push_back(particles.position(b));
-          const auto put = [&](NamedField &field, const unsigned int slot) {
-            field.data.insert(field.data.end(),
-                              state + slot,
-                              state + slot + dim);
-          };
-          put(force, slots.force);
-          put(gap, slots.gap);
-          put(normal, slots.normal);
-          area.data.push_back(particles.area(b));
-          number.data.push_back(i);
-        }
-    result.fields = {force, gap, normal, area, number};
+      {
+        const auto &particles = *boundaries[i];
+        const auto  forces    = smoothed_forces(particles, basis);
+        for (unsigned int b = 0; b < particles.n(); ++b)
+          {
+            const auto   &slots = particles.slots();
+            const double *state = particles.data(b);
+            result.positions.push_back(particles.position(b));
+            const auto put = [&](NamedField &field, const unsigned int slot) {
+              field.data.insert(field.data.end(),
+                                state + slot,
+                                state + slot + dim);
+            };
+            put(force, slots.force);
+            put(gap, slots.gap);
+            put(normal, slots.normal);
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                traction.data.push_back(state[slots.force + d] /
+                                        particles.area(b));
+                smoothed.data.push_back(forces[b][d]);
+              }
+            area.data.push_back(particles.area(b));
+            number.data.push_back(i);
+          }
+      }
+    result.fields = {force, smoothed, traction, gap, normal, area, number};
     return result;
   }
 
@@ -145,7 +158,7 @@ namespace Impoint
   {
     points_writer.write(time, material(points));
     if (!boundaries.empty())
-      boundary_writer.write(time, boundary(boundaries));
+      boundary_writer.write(time, boundary(boundaries, active.basis()));
     if (u.size() > 0)
       grid_writer.write(time, grid(active, u));
   }

@@ -12,7 +12,7 @@ namespace Impoint
     : active(active)
     , points(points)
     , methods(methods)
-    , empty_cells(active, points.young())
+    , empty_cells(active, points.young(), points.small_strain())
     , hourglass(active, points.young())
     , consistent_mass(points)
   {}

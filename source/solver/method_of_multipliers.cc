@@ -117,9 +117,10 @@ namespace Impoint
   MethodOfMultipliers<dim>::find(const Vector &u,
                                  const double  load,
                                  const double  reference,
+                                 const bool    exact,
                                  Vector       &delta)
   {
-    constexpr double       tolerance     = 1e-13;
+    constexpr double       tolerance = 1e-13, coarse = 1e-4;
     constexpr unsigned int max_solutions = 100, most_idle = 6;
     // A combination of multipliers that answers less than this part of itself
     // is one of constraints that depend on each other, but for round-off.
@@ -135,7 +136,9 @@ namespace Impoint
     unsigned int           n_idle = 0;
     double                 rest   = forces.l2_norm();
     largest                       = std::max({largest, load, rest});
-    while (directions.size() < max_solutions && rest > tolerance * largest)
+    const double enough           = exact ? 0. : coarse * reference;
+    while (directions.size() < max_solutions && rest > enough &&
+           rest > tolerance * largest)
       {
         directions.push_back(next_direction(place,
                                             present,

@@ -336,8 +336,8 @@ namespace Impoint
 
     multiplier_forces.reinit(active.unknowns());
     if (is_augmented())
-      multiplier_forces =
-        multipliers.find(u, external.l2_norm(), right.l2_norm(), delta);
+      multiplier_forces = multipliers.find(
+        u, external.l2_norm(), right.l2_norm(), is_linear(), delta);
   }
 
 

@@ -6,9 +6,11 @@ namespace Impoint
 {
   template <int dim>
   EmptyCells<dim>::EmptyCells(const ActiveNodes<dim> &active,
-                              const double            young)
+                              const double            young,
+                              const bool              small_strain)
     : active(active)
     , young(young)
+    , small_strain(small_strain)
   {}
 
 
@@ -16,22 +18,19 @@ namespace Impoint
   template <int dim>
   void EmptyCells<dim>::reinit()
   {
-    matrices.assign(active.n_cells() - active.n_material_cells(), {});
-    for (unsigned int e = 0; e < matrices.size(); ++e)
-      integrate(active.cell(active.n_material_cells() + e), matrices[e]);
+    points.clear();
+    for (unsigned int k = active.n_material_cells(); k < active.n_cells(); ++k)
+      points.push_back(integrate(active.cell(k)));
   }
 
 
 
-  /** E/2 (grad_a . grad_b I + grad_b x grad_a): elasticity with nu = 0, whose
-   * normal part E g_a x g_b needs no term of its own. */
   template <int dim>
-  void EmptyCells<dim>::integrate(const unsigned int   c,
-                                  std::vector<double> &matrix) const
+  std::vector<typename EmptyCells<dim>::Gradients>
+  EmptyCells<dim>::integrate(const unsigned int c) const
   {
-    const auto        &basis = active.basis();
-    const unsigned int n     = basis.n_nodes_of(c);
-    matrix.assign(n * n * dim * dim, 0.);
+    const auto           &basis = active.basis();
+    const unsigned int    n     = basis.n_nodes_of(c);
     std::vector<double>   support(basis.support_size(c));
     const Quadrature<dim> rule =
       basis.grid().simplicial() ?
@@ -40,29 +39,72 @@ namespace Impoint
     double rule_volume = 0;
     for (const double weight : rule.get_weights())
       rule_volume += weight;
+    std::vector<Gradients> result(rule.size());
     for (unsigned int q = 0; q < rule.size(); ++q)
       {
         basis.evaluate(c, rule.point(q), support.data());
-        const double *gradients = support.data() + n;
-        const double  factor =
-          0.5 * young * rule.weight(q) / rule_volume * basis.grid().volume(c);
+        result[q].volume =
+          rule.weight(q) / rule_volume * basis.grid().volume(c);
+        result[q].of_nodes.resize(n);
         for (unsigned int a = 0; a < n; ++a)
-          for (unsigned int b = 0; b < n; ++b)
-            {
-              const double *g_a   = gradients + a * dim;
-              const double *g_b   = gradients + b * dim;
-              double       *block = matrix.data() + (a * n + b) * dim * dim;
-              double        dot   = 0;
-              for (unsigned int d = 0; d < dim; ++d)
-                dot += g_a[d] * g_b[d];
-              for (unsigned int i = 0; i < dim; ++i)
-                {
-                  block[i * dim + i] += factor * dot;
-                  for (unsigned int j = 0; j < dim; ++j)
-                    block[i * dim + j] += factor * g_b[i] * g_a[j];
-                }
-            }
+          for (unsigned int d = 0; d < dim; ++d)
+            result[q].of_nodes[a][d] = support[n + a * dim + d];
       }
+    return result;
+  }
+
+
+
+  /** Residual V F S g_a with S = E (F^T F - 1) / 2; block (a, b) of its
+   * derivative V (g_a . S g_b 1 + E/2 (g_a . g_b F F^T + F g_b x F g_a)). */
+  template <int dim>
+  void EmptyCells<dim>::add_point(const Gradients &gradients,
+                                  CellSystem      &system) const
+  {
+    const unsigned int n = system.n;
+    Tensor<2, dim>     F;
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int i = 0; i < dim; ++i)
+        F[i] += system.u[a * dim + i] * gradients.of_nodes[a];
+    Tensor<2, dim>       strain = 0.5 * (F + transpose(F));
+    const Tensor<2, dim> one    = unit_symmetric_tensor<dim>();
+    if (small_strain)
+      F = one;
+    else
+      {
+        strain += 0.5 * transpose(F) * F;
+        F += one;
+      }
+    const Tensor<2, dim> S = gradients.volume * young * strain,
+                         B = 0.5 * gradients.volume * young * F * transpose(F);
+    std::vector<Tensor<1, dim>> pushed(n);
+    for (unsigned int a = 0; a < n; ++a)
+      {
+        const Tensor<1, dim> &g     = gradients.of_nodes[a];
+        const Tensor<1, dim>  force = F * (S * g);
+        pushed[a]                   = F * g;
+        for (unsigned int i = 0; i < dim; ++i)
+          system.residual[a * dim + i] += force[i];
+      }
+    if (system.matrix == nullptr)
+      return;
+    const double factor = 0.5 * gradients.volume * young;
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int b = 0; b < n; ++b)
+        {
+          const Tensor<1, dim> &g_a = gradients.of_nodes[a],
+                               &g_b = gradients.of_nodes[b];
+          const double dot          = g_a * g_b,
+                       geometric    = small_strain ? 0. : g_a * (S * g_b);
+          double *block             = system.matrix + (a * n + b) * dim * dim;
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              block[i * dim + i] += geometric;
+              for (unsigned int j = 0; j < dim; ++j)
+                block[i * dim + j] +=
+                  dot * B[i][j] + factor * pushed[b][i] * pushed[a][j];
+            }
+        }
   }
 
 
@@ -70,19 +112,8 @@ namespace Impoint
   template <int dim>
   void EmptyCells<dim>::add(const unsigned int k, CellSystem &system) const
   {
-    const std::vector<double> &matrix = matrices[k - active.n_material_cells()];
-    const unsigned int         n      = system.n;
-    for (unsigned int a = 0; a < n; ++a)
-      for (unsigned int b = 0; b < n; ++b)
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            {
-              const unsigned int at = (a * n + b) * dim * dim + i * dim + j;
-              system.residual[a * dim + i] +=
-                matrix[at] * system.u[b * dim + j];
-              if (system.matrix)
-                system.matrix[at] += matrix[at];
-            }
+    for (const Gradients &point : points[k - active.n_material_cells()])
+      add_point(point, system);
   }
 
   template class EmptyCells<2>;

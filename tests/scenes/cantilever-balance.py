@@ -1,25 +1,10 @@
 """Papers P and L: what the cantilever's clamp carries, load steps and 3D."""
 
-import csv
-from pathlib import Path
-
-from cantilever_runs import KINDS, SCENE, clamp, results, size, tip
+from cantilever_runs import KINDS, SCENE, balance, clamp, results, size, tip
 from driver import expect
 
-WEIGHT = 78480.
 CUBES = SCENE + "-3d"
 ALIGNED = ["Grid/Shift = 0, -1.125, -0.125"]
-
-
-def balance(name, reactions):
-    """The last state's imbalance of forces and moments, relative."""
-    with Path("run/history.csv").open() as history:
-        last = list(csv.DictReader(history))[-1]
-    force = abs(reactions["support F_y"]["value"] / WEIGHT - 1)
-    moment = abs(reactions["support M_z"]["value"] /
-                 (9.81 * float(last["mass"]) * float(last["centre x"])) - 1)
-    print(f"{name}: force {force:.1e}, moment {moment:.1e}", flush=True)
-    expect(force < 1e-8 and moment < 1e-8, f"{name} is out of balance")
 
 
 def check_numbers_of_particles():

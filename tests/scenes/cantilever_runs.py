@@ -1,12 +1,15 @@
 """What the tests of the cantilever (papers P and L, section 4.1) share."""
 
+import csv
 from math import log2
+from pathlib import Path
 
 from driver import expect, run_scene
 
 SCENE = "penalty/4.1-cantilever"
 KINDS = {"a": "", "b": "-rotated", "c": "-triangles", "d": "-distorted"}
 TIP = -0.677458
+WEIGHT = 78480.
 
 
 def size(kind, n):
@@ -38,3 +41,14 @@ def tip(scene, settings):
 
 def rate(coarse, fine):
     return log2(coarse / fine)
+
+
+def balance(name, reactions):
+    """The last state's imbalance of forces and moments, relative."""
+    with Path("run/history.csv").open() as history:
+        last = list(csv.DictReader(history))[-1]
+    force = abs(reactions["support F_y"]["value"] / WEIGHT - 1)
+    moment = abs(reactions["support M_z"]["value"] /
+                 (9.81 * float(last["mass"]) * float(last["centre x"])) - 1)
+    print(f"{name}: force {force:.1e}, moment {moment:.1e}", flush=True)
+    expect(force < 1e-8 and moment < 1e-8, f"{name} is out of balance")

@@ -27,6 +27,7 @@ def tip(kind, method, beta):
 def main():
     for kind in KINDS:
         flat = tip(kind, "projected penalty", 1e24)
+        exact = [tip(kind, "lagrange multiplier", beta) for beta in (1e10, 1e30)]
         soft, stiff, stiffest = (tip(kind, "penalty", beta)
                                  for beta in (1e10, 1e20, 1e30))
         gaps = [tip(kind, "projected penalty", beta) - flat
@@ -36,8 +37,11 @@ def main():
         print(f"kind {kind}: error {flat / EXACT - 1:.2e}, spring {spring:.4f}, "
               f"slope {slope:.3f}, "
               f"penalty 1e10 {soft / EXACT - 1:.2e}, "
-              f"1e20 {stiff / EXACT - 1:.2e}, 1e30 {stiffest / EXACT - 1:.2e}",
-              flush=True)
+              f"1e20 {stiff / EXACT - 1:.2e}, 1e30 {stiffest / EXACT - 1:.2e}, "
+              f"multiplier {exact[0] / EXACT - 1:.2e}", flush=True)
+        expect(abs(exact[1] / exact[0] - 1) < 1e-12, f"multipliers {exact}")
+        # As the groups of shared multipliers are larger than cells, they differ.
+        expect(abs(exact[0] / flat - 1) < 1e-3, f"multiplier {exact[0]}, not {flat}")
         expect(abs(slope + 1) < 0.01, f"kind {kind}: {gaps}")
         expect(abs(stiffest / stiff - 1) < 1e-6, f"kind {kind}: no plateau")
         if kind == "a":

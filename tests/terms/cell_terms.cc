@@ -17,6 +17,53 @@ void print_bound(const std::string &what, const double error)
   std::cout << std::endl;
 }
 
+// The residual is cubic in the displacements: two differences give its
+// derivative.
+template <int dim>
+void test_large_strain(const TermScene<dim> &scene,
+                       const Tensor<2, dim> &A,
+                       const Tensor<1, dim> &a)
+{
+  EmptyCells<dim> empty(scene.active, scene.points->young(), false);
+  empty.reinit();
+  double moment_error = 0, difference = 0;
+  for (unsigned int k = scene.active.n_material_cells();
+       k < scene.active.n_cells();
+       ++k)
+    {
+      LinearCell<dim>     cell(scene, k, A, a);
+      const unsigned int  n_unknowns = cell.values.size();
+      std::vector<double> sum(n_unknowns, 0.);
+      for (const double step : {-2., -1., 1., 2.})
+        {
+          const double    factor = 1. + 0.1 * step;
+          LinearCell<dim> other(scene, k, factor * A, factor * a);
+          empty.add(k, other.system);
+          const double weight = (std::abs(step) == 1. ? 8. : -1.) / 1.2;
+          for (unsigned int i = 0; i < n_unknowns; ++i)
+            sum[i] += (step > 0 ? weight : -weight) * other.residual[i];
+        }
+      empty.add(k, cell.system);
+      Tensor<2, dim> moment;
+      for (unsigned int i = 0; i < n_unknowns; ++i)
+        {
+          const auto node =
+            scene.active.grid_node(scene.active.nodes(k)[i / dim]);
+          for (unsigned int j = 0; j < dim; ++j)
+            moment[j][i % dim] +=
+              (scene.basis.point(node)[j] + cell.values[i / dim * dim + j]) *
+              cell.residual[i];
+        }
+      moment_error =
+        std::max(moment_error, (moment - transpose(moment)).norm());
+      cell.residual = sum;
+      difference    = std::max(difference, cell.linearity_error(1.));
+    }
+  print_bound("  large strains, moment about the places at the end",
+              moment_error);
+  print_bound("  their matrix", difference);
+}
+
 template <int dim>
 void test(const std::string &cells, const std::string &settings)
 {
@@ -53,7 +100,7 @@ void test(const std::string &cells, const std::string &settings)
   print_bound("  force of mass", force_error);
   print_bound("  its matrix", mass_linearity);
 
-  EmptyCells<dim> empty(scene.active, scene.points->young());
+  EmptyCells<dim> empty(scene.active, scene.points->young(), true);
   empty.reinit();
   const Tensor<2, dim> strain   = 0.5 * (A + transpose(A));
   const Tensor<2, dim> rotation = 0.5 * (A - transpose(A));
@@ -78,6 +125,7 @@ void test(const std::string &cells, const std::string &settings)
   print_bound("  empty cells, force of rigid motions", rigid);
   print_bound("  energy of a stretch", energy_error);
   print_bound("  their matrix", empty_linearity);
+  test_large_strain(scene, 0.1 * A, a);
 }
 
 int main(int argc, char **argv)

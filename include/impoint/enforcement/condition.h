@@ -33,19 +33,19 @@ namespace Impoint
 
     std::string name, section;
 
-    std::string         constraint = "fixed"; // fixed|slip|roller|traction
-    std::string         components;           // of a roller
-    std::string         enforcement    = "projected penalty";
-    double              factor         = 1e4;
-    std::string         factor_unit    = "E/h";       // E/h|Pa/m
-    std::string         superfluous    = "automatic"; // automatic|keep|remove
-    double              band_width     = 1e-6;        // [h]
-    bool                small_cut_rule = false;
-    bool                releasing      = false;
-    double              friction       = 0;          // of a slip boundary
-    std::string         normals    = "automatic";    // automatic|particle|nodal
-    std::string         value_kind = "displacement"; // displacement|velocity
-    std::string         motion     = "automatic";
+    std::string constraint = "fixed"; // fixed|slip|roller|traction
+    std::string components;           // of a roller
+    std::string enforcement    = "projected penalty";
+    double      factor         = 1e4;
+    std::string factor_unit    = "E/h";       // E/h|Pa/m
+    std::string superfluous    = "automatic"; // automatic|keep|remove|share
+    double      band_width     = 1e-6;        // [h]
+    bool        small_cut_rule = false;
+    bool        releasing      = false;
+    double      friction       = 0;              // of a slip boundary
+    std::string normals        = "automatic";    // automatic|particle|nodal
+    std::string value_kind     = "displacement"; // displacement|velocity
+    std::string motion         = "automatic";
     std::vector<double> rotation_centre, rotation_axis;
     double              from  = std::numeric_limits<double>::lowest();
     double              until = std::numeric_limits<double>::max();

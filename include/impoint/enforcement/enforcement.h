@@ -7,6 +7,7 @@
 #include <impoint/particles/material_points.h>
 #include <impoint/terms/term.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -138,6 +139,14 @@ namespace Impoint
       /** From now on in this step what touches goes on touching: ends a cycle
        * of the active set. */
       virtual void freeze();
+
+      /** Puts the displacements of the nodes of its link @p l into @p u. */
+      using LinkDisplacements =
+        std::function<void(const unsigned int l, std::vector<double> &u)>;
+
+      /** Before end_step(): what links did in the converged step. Collective.
+       */
+      virtual void end_links(const LinkDisplacements &displacements);
 
       /** Stores gap, force and multiplier of the converged step for range
        * @p r; @p u is null where the condition does not act. */

@@ -3,6 +3,7 @@
 
 #include <impoint/enforcement/gap_patch.h>
 #include <impoint/enforcement/nodal_normals.h>
+#include <impoint/enforcement/shared_constraints.h>
 
 namespace Impoint
 {
@@ -11,7 +12,7 @@ namespace Impoint
     /**
      * What the methods that act on a gap share: penalties and multipliers. The
      * gap is the total one, carried from step to step by the particles; a patch
-     * is one particle, or all particles of a cell.
+     * is one particle, all particles of a cell, or those of a link.
      *
      * A multiplier is found within a linear solve by lambda <- t (see
      * TractionLaw), whose fixed point is t = g / c, or g = 0 for a compliance
@@ -37,6 +38,13 @@ namespace Impoint
       std::vector<double> multipliers() const override;
       void set_multipliers(const std::vector<double> &values) override;
       void freeze() override;
+      void add_link(const unsigned int l,
+                    const Strength     strength,
+                    CellSystem        &system) const override;
+      void update_link_multipliers(const unsigned int l,
+                                   CellSystem        &system) override;
+      void end_links(
+        const typename Method<dim>::LinkDisplacements &displacements) override;
       void end_step(const unsigned int r, const double *u) override;
 
     protected:
@@ -54,6 +62,11 @@ namespace Impoint
       /** Whether the small-cut rule changes the values in range @p r. */
       virtual bool raises_small_values(const unsigned int r) const;
 
+      /** Whether neighbouring cells share constraints (SharedConstraints). */
+      bool shares_constraints() const;
+
+      void make_links(const ActiveNodes<dim> &active, Links &links) override;
+
       double unit(const unsigned int r) const; // E/h [Pa/m]
 
       /** The factor of the scene [Pa/m]. */
@@ -70,6 +83,7 @@ namespace Impoint
     private:
       bool takes_part(const unsigned int r) const;
       bool removes_superfluous() const;
+      void make_link_patches();
 
       template <typename Function>
       void for_patches(const unsigned int r, const Function &function) const;
@@ -99,7 +113,16 @@ namespace Impoint
 
       typename Patch::Answer answer(const Patch &patch, const double *u) const;
 
-      void store(const unsigned int r, const Patch &patch, const double *u);
+      void add_patch(const Patch                  &patch,
+                     const typename Patch::Answer &answer,
+                     const unsigned int            r,
+                     const Strength                strength,
+                     CellSystem                   &system) const;
+
+      void store(const unsigned int            r,
+                 const Patch                  &patch,
+                 const typename Patch::Answer &answer,
+                 const double                 *u);
 
       const bool projected;
       const bool normal_only; // whether only the normal gap counts
@@ -113,6 +136,10 @@ namespace Impoint
       std::vector<Tensor<1, dim>> multiplier;
       mutable std::vector<Touch>  touches;
       bool                        frozen = false;
+
+      SharedConstraints<dim>      shared;
+      std::vector<Patch>          link_patches;     // with the multiplier now
+      std::vector<Tensor<1, dim>> shared_tractions; // per range, of the step
     };
   } // namespace Enforcement
 } // namespace Impoint

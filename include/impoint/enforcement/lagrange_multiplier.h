@@ -14,9 +14,9 @@ namespace Impoint
      * factor gamma.
      *
      * Both enforcements of this kind differ in who chooses gamma and in what
-     * becomes of superfluous constraints (L Section 3.2.2): "lagrange
-     * multiplier" leaves them out, "augmented Lagrangian" keeps them, which
-     * does no harm but to the multipliers' smoothness.
+     * becomes of superfluous constraints (L Section 3.2.2): with "lagrange
+     * multiplier" neighbours share one, "augmented Lagrangian" keeps all, which
+     * does little harm but to the multipliers' smoothness.
      */
     template <int dim>
     class LagrangeMultiplier : public GapMethod<dim>

@@ -35,8 +35,9 @@ namespace Impoint
 
   private:
     PointFields<dim> material(const MaterialPoints<dim> &points) const;
-    PointFields<dim> boundary(
-      const std::vector<const BoundaryParticles<dim> *> &boundaries) const;
+    PointFields<dim>
+    boundary(const std::vector<const BoundaryParticles<dim> *> &boundaries,
+             const Basis<dim>                                  &basis) const;
     GridFields<dim>
     grid(const ActiveNodes<dim>                           &active,
          const LinearAlgebra::distributed::Vector<double> &u) const;

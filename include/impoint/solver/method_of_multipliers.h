@@ -38,12 +38,15 @@ namespace Impoint
      * Improves @p delta, the correction at @p u with the present multipliers,
      * and these, until a further update changes the residual by round-off of
      * the forces in this step: @p load [N] and those of the multipliers. @p
-     * reference [N] is the right-hand side of delta. Returns what the new
-     * multipliers changed in the residual. Collective.
+     * reference [N] is the right-hand side of delta; where a further correction
+     * follows, changes that are small beside that are left to it (@p exact =
+     * false). Returns what the new multipliers changed in the residual.
+     * Collective.
      */
     Vector find(const Vector &u,
                 const double  load,
                 const double  reference,
+                const bool    exact,
                 Vector       &delta);
 
     /** Goes back to the part @p fraction of what the last find() changed. */

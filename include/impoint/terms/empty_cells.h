@@ -12,15 +12,20 @@ namespace Impoint
    * Stiffness of active cells that hold boundary particles but no material
    * (L section 3.6). Their far nodes would take up a gap at no cost, and the
    * boundary would hold nothing. Here the cell resists the step's
-   * displacements as an elastic cell without stress would: unlike springs to
-   * ground this leaves forces and moments in balance.
+   * displacements as an elastic cell without stress would (St.
+   * Venant-Kirchhoff, nu = 0; or linear): unlike springs to ground this leaves
+   * forces and moments in balance, also about the places that nodes have moved
+   * to.
    */
   template <int dim>
   class EmptyCells
   {
   public:
-    /** @p young: Young's modulus of the stiffest material [Pa]. */
-    EmptyCells(const ActiveNodes<dim> &active, const double young);
+    /** @p young: Young's modulus of the stiffest material [Pa]. @p
+     * small_strain: whether to be linear. */
+    EmptyCells(const ActiveNodes<dim> &active,
+               const double            young,
+               const bool              small_strain);
 
     /** After the set of active cells changed. */
     void reinit();
@@ -29,11 +34,21 @@ namespace Impoint
     void add(const unsigned int k, CellSystem &system) const;
 
   private:
-    void integrate(const unsigned int c, std::vector<double> &matrix) const;
+    /** Of a quadrature point. */
+    struct Gradients
+    {
+      double                      volume;
+      std::vector<Tensor<1, dim>> of_nodes;
+    };
 
-    const ActiveNodes<dim>          &active;
-    double                           young;
-    std::vector<std::vector<double>> matrices; // per empty cell
+    std::vector<Gradients> integrate(const unsigned int c) const;
+
+    void add_point(const Gradients &gradients, CellSystem &system) const;
+
+    const ActiveNodes<dim>             &active;
+    double                              young;
+    bool                                small_strain;
+    std::vector<std::vector<Gradients>> points; // per empty cell
   };
 } // namespace Impoint
 

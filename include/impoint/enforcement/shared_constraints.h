@@ -1,0 +1,84 @@
+#ifndef impoint_enforcement_shared_constraints_h
+#define impoint_enforcement_shared_constraints_h
+
+#include <impoint/enforcement/constraint_groups.h>
+#include <impoint/enforcement/gap_patch.h>
+
+#include <functional>
+#include <vector>
+
+namespace Impoint
+{
+  namespace Enforcement
+  {
+    /**
+     * Constraints that several cells of a boundary share (ConstraintGroups):
+     * each is a link of the rank that owns the cell in the middle, and what
+     * other ranks' particles contribute goes there and comes back.
+     */
+    template <int dim>
+    class SharedConstraints
+    {
+    public:
+      void clear();
+
+      /** Finds the groups of @p boundary and appends this rank's links.
+       * Collective. */
+      void make_links(const BoundaryParticles<dim> &boundary,
+                      const ActiveNodes<dim>       &active,
+                      Links                        &links);
+
+      /** Whether the cell of range @p r shares its constraint. */
+      bool contains(const unsigned int r) const
+      {
+        return r < parts.size() && parts[r].rank != nobody;
+      }
+
+      unsigned int n_links() const
+      {
+        return links.size();
+      }
+
+      /** The range of the cell in the middle of link @p l. */
+      unsigned int middle(const unsigned int l) const
+      {
+        return links[l].middle;
+      }
+
+      /** The patches of links, from those that @p patch gives for ranges of
+       * particles. @p first: place of the first link among all. Collective. */
+      std::vector<GapPatch<dim>> collect(
+        const ActiveNodes<dim>                                 &active,
+        const unsigned int                                      first,
+        const bool                                              normal_only,
+        const std::function<GapPatch<dim>(const unsigned int)> &patch) const;
+
+      /** A vector for each range, from those of links. Collective. */
+      std::vector<Tensor<1, dim>>
+      distribute(const std::vector<Tensor<1, dim>> &of_links,
+                 const MPI_Comm                     communicator) const;
+
+    private:
+      static constexpr unsigned int nobody = numbers::invalid_unsigned_int;
+
+      /** A range's place: the rank of its link, the link there, the cell in
+       * the link. */
+      struct Part
+      {
+        unsigned int rank = nobody, link = 0, member = 0;
+      };
+
+      struct Link
+      {
+        unsigned int              middle; // range
+        std::vector<unsigned int> cells;  // of this rank, ghosts included
+        std::vector<unsigned int> ranks;  // that own them
+      };
+
+      std::vector<Part> parts; // per range
+      std::vector<Link> links; // of this rank
+    };
+  } // namespace Enforcement
+} // namespace Impoint
+
+#endif

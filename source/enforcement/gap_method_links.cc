@@ -1,0 +1,97 @@
+#include <impoint/enforcement/gap_method.h>
+
+namespace Impoint
+{
+  namespace Enforcement
+  {
+    template <int dim>
+    bool GapMethod<dim>::shares_constraints() const
+    {
+      const std::string &choice = this->condition.superfluous;
+      return projected && is_linear() &&
+             (choice == "share" ||
+              (choice == "automatic" &&
+               this->condition.enforcement == "lagrange multiplier"));
+    }
+
+
+
+    template <int dim>
+    void GapMethod<dim>::make_links(const ActiveNodes<dim> &active,
+                                    Links                  &links)
+    {
+      if (shares_constraints())
+        shared.make_links(*this->boundary, active, links);
+    }
+
+
+
+    /** What the cells of links contribute does not change within a step. */
+    template <int dim>
+    void GapMethod<dim>::make_link_patches()
+    {
+      if (!shares_constraints())
+        return;
+      const auto &ranges = this->boundary->ranges();
+      link_patches =
+        shared.collect(*this->current.active,
+                       this->begin_link(),
+                       normal_only,
+                       [&](const unsigned int r) {
+                         return make_patch(r, ranges[r].begin, ranges[r].end);
+                       });
+      for (unsigned int l = 0; l < link_patches.size(); ++l)
+        link_patches[l].law = law(shared.middle(l), link_patches[l].area);
+    }
+
+
+
+    template <int dim>
+    void GapMethod<dim>::add_link(const unsigned int l,
+                                  const Strength     strength,
+                                  CellSystem        &system) const
+    {
+      add_patch(link_patches[l],
+                link_patches[l].answer(system.u, nullptr),
+                shared.middle(l),
+                strength,
+                system);
+    }
+
+
+
+    template <int dim>
+    void GapMethod<dim>::update_link_multipliers(const unsigned int l,
+                                                 CellSystem        &system)
+    {
+      Patch               &patch = link_patches[l];
+      const Tensor<1, dim> t     = patch.answer(system.u, nullptr).traction;
+      patch.multiplier           = t;
+      patch.add_force(patch.answer(system.u, nullptr).traction - t, system);
+    }
+
+
+
+    template <int dim>
+    void GapMethod<dim>::end_links(
+      const typename Method<dim>::LinkDisplacements &displacements)
+    {
+      if (!shares_constraints())
+        return;
+      std::vector<Tensor<1, dim>> tractions;
+      std::vector<double>         u;
+      for (unsigned int l = 0; l < link_patches.size(); ++l)
+        {
+          displacements(l, u);
+          tractions.push_back(
+            link_patches[l].answer(u.data(), nullptr).traction);
+        }
+      shared_tractions =
+        shared.distribute(tractions,
+                          this->current.active->basis().grid().communicator());
+    }
+
+    template class GapMethod<2>;
+    template class GapMethod<3>;
+  } // namespace Enforcement
+} // namespace Impoint
