@@ -3,10 +3,10 @@
 #include <impoint/particles/point_cloud.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/particles/particle_handler.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <tuple>
 
@@ -17,24 +17,29 @@ namespace Impoint
                               const PropertyLayout &layout)
     : basis(basis)
     , property_layout(layout)
-    , pool(std::make_unique<Pool>(property_layout.n_doubles()))
+    , handler(std::make_unique<Handler>(basis.grid().triangulation(),
+                                        basis.grid().mapping(),
+                                        property_layout.n_doubles()))
+    , pool(&handler->get_property_pool())
   {}
 
 
 
   template <int dim>
-  PointCloud<dim>::~PointCloud()
-  {
-    // The pool insists on it.
-    if (pool)
-      for (auto handle : handles)
-        pool->deregister_particle(handle);
-  }
+  PointCloud<dim>::~PointCloud() = default;
 
 
 
   template <int dim>
   PointCloud<dim>::PointCloud(PointCloud &&) noexcept = default;
+
+
+
+  template <int dim>
+  types::particle_index PointCloud<dim>::n_global() const
+  {
+    return handler->n_global_particles();
+  }
 
 
 
@@ -54,36 +59,72 @@ namespace Impoint
   void PointCloud<dim>::insert(const std::vector<NewParticle> &particles)
   {
     std::vector<Arrival> arrivals;
-    pool->reserve(n() + particles.size());
-    take_in(particles, arrivals);
-    list(std::move(arrivals));
-    n_of_all_ranks = Utilities::MPI::sum(types::particle_index(n()),
-                                         basis.grid().communicator());
+    announce(particles, arrivals);
+    handler->reserve(n() + particles.size());
+    put_in(arrivals);
+    list(arrivals);
+    handler->update_cached_numbers();
     evaluate_supports();
   }
 
 
 
-  /** Puts the particles' state into the pool. */
   template <int dim>
-  void PointCloud<dim>::take_in(const std::vector<NewParticle> &particles,
-                                std::vector<Arrival>           &arrivals)
+  void PointCloud<dim>::announce(const std::vector<NewParticle> &particles,
+                                 std::vector<Arrival>           &arrivals) const
   {
     for (const NewParticle &particle : particles)
       {
-        Assert(basis.grid().is_owned(particle.cell), ExcInternalError());
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = particle.properties[d];
-        const auto handle = pool->register_particle();
-        pool->set_id(handle, particle.id);
-        std::copy(particle.properties.begin(),
-                  particle.properties.end(),
-                  pool->get_properties(handle).begin());
         arrivals.push_back({particle.cell,
                             particle.id,
-                            handle,
-                            basis.grid().to_reference(particle.cell, x)});
+                            basis.grid().to_reference(particle.cell, x),
+                            particle.properties.data(),
+                            Pool::invalid_handle});
+      }
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::take_out(const unsigned int          cell,
+                                 const typename Pool::Handle handle)
+  {
+    auto particle = handler->particles_in_cell(basis.grid().cell(cell)).begin();
+    while (particle->get_local_index() != handle)
+      ++particle;
+    handler->remove_particle(particle);
+  }
+
+
+
+  /** Gives the arrivals, which are sorted then, to the handler. */
+  template <int dim>
+  void PointCloud<dim>::put_in(std::vector<Arrival> &arrivals)
+  {
+    std::sort(arrivals.begin(),
+              arrivals.end(),
+              [](const Arrival &a, const Arrival &b) {
+                return std::tie(a.cell, a.id) < std::tie(b.cell, b.id);
+              });
+    // The pool hands out first the place in memory that was freed last, and
+    // particles are taken out in the order of cells. So, last first, those of
+    // neighbouring cells stay neighbours in memory.
+    for (auto arrival = arrivals.rbegin(); arrival != arrivals.rend();
+         ++arrival)
+      {
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = arrival->state[d];
+        const auto particle = handler->insert_particle(
+          x,
+          arrival->reference,
+          arrival->id,
+          basis.grid().cell(arrival->cell),
+          ArrayView<const double>(arrival->state, property_layout.n_doubles()));
+        arrival->handle = particle->get_local_index();
       }
   }
 
@@ -91,13 +132,8 @@ namespace Impoint
 
   /** Renews the lists: without the particles in moves, with the arrivals. */
   template <int dim>
-  void PointCloud<dim>::list(std::vector<Arrival> arrivals)
+  void PointCloud<dim>::list(const std::vector<Arrival> &arrivals)
   {
-    std::sort(arrivals.begin(),
-              arrivals.end(),
-              [](const Arrival &a, const Arrival &b) {
-                return std::tie(a.cell, a.id) < std::tie(b.cell, b.id);
-              });
     std::vector<Range>                 old_ranges;
     std::vector<typename Pool::Handle> old_handles;
     std::vector<Point<dim>>            old_references;
@@ -132,7 +168,10 @@ namespace Impoint
       }
     while (arrival != arrivals.cend())
       append_next();
-    place_states(arrivals.size());
+
+    states.resize(handles.size());
+    for (std::size_t p = 0; p < handles.size(); ++p)
+      states[p] = pool->get_properties(handles[p]).data();
   }
 
 
@@ -149,26 +188,6 @@ namespace Impoint
     handles.push_back(handle);
     references.push_back(reference);
     ++cell_ranges.back().end;
-  }
-
-
-
-  /** Finds the states in the pool after @p n_new particles came in. */
-  template <int dim>
-  void PointCloud<dim>::place_states(const std::size_t n_new)
-  {
-    // Neighbours in the grid should be so in memory, too; but it costs as much
-    // as an assembly to sort all.
-    n_unsorted += n_new;
-    if (4 * n_unsorted > handles.size())
-      {
-        pool->sort_memory_slots(handles);
-        std::iota(handles.begin(), handles.end(), 0);
-        n_unsorted = 0;
-      }
-    states.resize(handles.size());
-    for (std::size_t p = 0; p < handles.size(); ++p)
-      states[p] = pool->get_properties(handles[p]).data();
   }
 
 
@@ -283,14 +302,15 @@ namespace Impoint
       Utilities::MPI::max(static_cast<unsigned int>(moves.size()), comm) > 0;
     if (changed)
       {
+        const types::particle_index n_before = n_global();
         change_cells();
-        const types::particle_index n_now =
-          Utilities::MPI::sum(types::particle_index(n()), comm);
-        if (n_now != n_of_all_ranks)
-          throw RunFailed("points were lost between cells: " +
-                          std::to_string(n_of_all_ranks) + " before, " +
-                          std::to_string(n_now) + " after");
+        handler->update_cached_numbers();
+        if (n_global() != n_before)
+          throw RunFailed(
+            "points were lost between cells: " + std::to_string(n_before) +
+            " before, " + std::to_string(n_global()) + " after");
       }
+    tell_places();
     evaluate_supports();
     return changed;
   }
@@ -305,32 +325,50 @@ namespace Impoint
     std::sort(moves.begin(), moves.end(), [](const Move &a, const Move &b) {
       return a.particle < b.particle;
     });
-    std::vector<Arrival>                             arrivals;
-    std::map<unsigned int, std::vector<NewParticle>> for_others;
+    const unsigned int   n_doubles = property_layout.n_doubles();
+    std::vector<double>  leaving(moves.size() * n_doubles); // states
+    std::vector<Arrival> arrivals;
+    std::map<unsigned int, std::vector<NewParticle>> for_others, from_others;
+    auto    range = cell_ranges.begin();
+    double *state = leaving.data();
     for (const Move &move : moves)
       {
-        auto &handle = handles[move.particle];
+        while (range->end <= move.particle)
+          ++range;
+        const types::particle_index id = this->id(move.particle);
+        std::copy_n(states[move.particle], n_doubles, state);
+        take_out(range->cell, handles[move.particle]);
         if (move.rank == me)
           arrivals.push_back({move.cell,
-                              pool->get_id(handle),
-                              handle,
-                              references[move.particle]});
+                              id,
+                              references[move.particle],
+                              state,
+                              Pool::invalid_handle});
         else
-          {
-            const double *state = states[move.particle];
-            for_others[move.rank].push_back(
-              {move.cell,
-               pool->get_id(handle),
-               std::vector<double>(state,
-                                   state + property_layout.n_doubles())});
-            pool->deregister_particle(handle);
-          }
+          for_others[move.rank].push_back(
+            {move.cell, id, std::vector<double>(state, state + n_doubles)});
+        state += n_doubles;
       }
     if (Utilities::MPI::n_mpi_processes(comm) > 1)
-      for (const auto &message : Utilities::MPI::some_to_some(comm, for_others))
-        take_in(message.second, arrivals);
-    list(std::move(arrivals));
+      from_others = Utilities::MPI::some_to_some(comm, for_others);
+    for (const auto &message : from_others)
+      announce(message.second, arrivals);
+    put_in(arrivals);
+    list(arrivals);
     moves.clear();
+  }
+
+
+
+  /** Tells the handler the places, that it may be asked for them. */
+  template <int dim>
+  void PointCloud<dim>::tell_places()
+  {
+    for (unsigned int p = 0; p < n(); ++p)
+      {
+        pool->set_location(handles[p], position(p));
+        pool->set_reference_location(handles[p], references[p]);
+      }
   }
 
   template class PointCloud<2>;
