@@ -60,7 +60,8 @@ namespace Impoint
                                                     scene.linear_solver,
                                                     counters,
                                                     seconds);
-    system->add_term(std::make_unique<InternalForce<dim>>(*points));
+    system->add_term(
+      std::make_unique<InternalForce<dim>>(*points, &end_states));
     newton = std::make_unique<Newton<dim>>(scene.newton, *system, counters);
     for (const auto &measurement : scene.measurements)
       measurements.push_back(Measurements::create<dim>(file, measurement));
@@ -262,6 +263,8 @@ namespace Impoint
                        end,
                        body_force(*points, active, body_forces, end),
                        dynamic ? &inertia : nullptr);
+    // Newton's last residual is that of the solution, unless a step is linear.
+    end_states.reinit(*points, !system->is_linear());
   }
 
 
@@ -343,6 +346,7 @@ namespace Impoint
       update_points(active,
                     u,
                     scene.time.is_dynamic() ? &inertia : nullptr,
+                    end_states,
                     *points);
     }
     {

@@ -54,11 +54,14 @@ namespace Impoint
     class CellUpdate
     {
     public:
-      CellUpdate(MaterialPoints<dim> &points, const Inertia<dim> *inertia)
+      CellUpdate(MaterialPoints<dim>  &points,
+                 const Inertia<dim>   *inertia,
+                 const EndStates<dim> &end_states)
         : points(points)
         , slots(points.slots())
         , inertia(inertia)
-        , new_history(points.carried().n_history)
+        , end_states(end_states)
+        , own_end_state(EndStates<dim>::n_fixed + points.carried().n_history)
       {}
 
       /** @p u, @p a: displacements and accelerations of the cell's nodes; @p
@@ -74,7 +77,10 @@ namespace Impoint
           {
             const double *N = points.support(p);
             displace(p, interpolate<dim, n_static>(n, N, u));
-            deform(p, interpolate_gradient<dim, n_static>(n, N + n, u));
+            if (const double *end_state = end_states.data(p))
+              points.set_end_state(p, end_state);
+            else
+              deform(p, interpolate_gradient<dim, n_static>(n, N + n, u));
             if (seen != nullptr)
               filter(p, interpolate<dim, n_static>(n, N, seen));
             if (inertia != nullptr)
@@ -95,20 +101,14 @@ namespace Impoint
 
       void deform(const unsigned int p, const Tensor<2, dim> &grad_u)
       {
-        double *state = points.data(p);
-        points.respond(
-          p, grad_u, false, deformation, response, new_history.data());
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            state[slots.F + i * dim + j] = deformation.F[i][j];
-        for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
-          state[slots.stress + k] = response.stress[k];
-        if (dim == 2)
-          state[slots.stress + Voigt<dim>::n] = response.stress_zz;
-        if (!new_history.empty())
-          std::copy(new_history.begin(),
-                    new_history.end(),
-                    state + slots.history);
+        points.respond(p,
+                       grad_u,
+                       false,
+                       deformation,
+                       response,
+                       own_end_state.data() + EndStates<dim>::n_fixed);
+        EndStates<dim>::store(deformation, response, own_end_state.data());
+        points.set_end_state(p, own_end_state.data());
       }
 
       /** Takes the filtered part of what the grid doesn't see of the velocity.
@@ -136,9 +136,10 @@ namespace Impoint
       MaterialPoints<dim>                       &points;
       const typename MaterialPoints<dim>::Slots &slots;
       const Inertia<dim>                        *inertia;
+      const EndStates<dim>                      &end_states;
       Materials::Deformation<dim>                deformation;
       Materials::Response<dim>                   response;
-      std::vector<double>                        new_history;
+      std::vector<double>                        own_end_state;
     };
   } // namespace
 
@@ -197,9 +198,10 @@ namespace Impoint
   void update_points(const ActiveNodes<dim> &active,
                      const NodalVector      &u,
                      const Inertia<dim>     *inertia,
+                     const EndStates<dim>   &end_states,
                      MaterialPoints<dim>    &points)
   {
-    CellUpdate<dim>     update(points, inertia);
+    CellUpdate<dim>     update(points, inertia, end_states);
     std::vector<double> cell_u, cell_a, cell_seen;
     const bool filters = inertia != nullptr && inertia->filtered_part() > 0;
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
@@ -243,6 +245,7 @@ namespace Impoint
   template void update_points(const ActiveNodes<dim> &,     \
                               const NodalVector &,          \
                               const Inertia<dim> *,         \
+                              const EndStates<dim> &,       \
                               MaterialPoints<dim> &);
 
   IMPOINT_INSTANTIATE(2)
