@@ -11,14 +11,25 @@ namespace Impoint
   {
     template <int dim>
     void gather_at(const ArrayView<const unsigned int> nodes,
-                   const NodalVector                  &vector,
+                   const double                       *local,
                    std::vector<double>                &values)
     {
-      const double *local = vector.begin();
       values.resize(nodes.size() * dim);
       for (unsigned int a = 0; a < nodes.size(); ++a)
         for (unsigned int d = 0; d < dim; ++d)
           values[a * dim + d] = local[nodes[a] * dim + d];
+    }
+
+    /** At the end of the step, of the active nodes and ghosts. */
+    template <int dim>
+    std::vector<double> nodal_accelerations(const ActiveNodes<dim> &active,
+                                            const NodalVector      &u,
+                                            const Inertia<dim>     &inertia)
+    {
+      std::vector<double> values(active.n_nodes() * dim);
+      for (unsigned int i = 0; i < values.size(); ++i)
+        values[i] = inertia.acceleration(i, u.local_element(i));
+      return values;
     }
 
     /** sum_a N_a u_a */
@@ -157,7 +168,7 @@ namespace Impoint
       {
         const auto  nodes = active.nodes(k);
         const auto &range = points.ranges()[k];
-        gather_at<dim>(nodes, u, cell_u);
+        gather_at<dim>(nodes, u.begin(), cell_u);
         with_support_size<dim>(nodes.size(), [&](const auto n_static) {
           for (unsigned int p = range.begin; p < range.end; ++p)
             places[p] =
@@ -180,7 +191,7 @@ namespace Impoint
       {
         const auto  nodes = active.nodes(k);
         const auto &range = points.ranges()[k];
-        gather_at<dim>(nodes, accelerations, cell_a);
+        gather_at<dim>(nodes, accelerations.begin(), cell_a);
         for (unsigned int p = range.begin; p < range.end; ++p)
           {
             const Tensor<1, dim> a = interpolate<dim, -1>(nodes.size(),
@@ -202,21 +213,16 @@ namespace Impoint
                      MaterialPoints<dim>    &points)
   {
     CellUpdate<dim>     update(points, inertia, end_states);
-    std::vector<double> cell_u, cell_a, cell_seen;
+    std::vector<double> accelerations, cell_u, cell_a, cell_seen;
+    if (inertia != nullptr)
+      accelerations = nodal_accelerations(active, u, *inertia);
     const bool filters = inertia != nullptr && inertia->filtered_part() > 0;
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
         const auto nodes = active.nodes(k);
-        gather_at<dim>(nodes, u, cell_u);
+        gather_at<dim>(nodes, u.begin(), cell_u);
         if (inertia != nullptr)
-          {
-            cell_a.resize(nodes.size() * dim);
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              for (unsigned int d = 0; d < dim; ++d)
-                cell_a[a * dim + d] =
-                  inertia->acceleration(nodes[a] * dim + d,
-                                        cell_u[a * dim + d]);
-          }
+          gather_at<dim>(nodes, accelerations.data(), cell_a);
         if (filters)
           {
             cell_seen.resize(nodes.size() * dim);
