@@ -61,7 +61,7 @@ namespace Impoint
     std::vector<Arrival> arrivals;
     announce(particles, arrivals);
     handler->reserve(n() + particles.size());
-    put_in(arrivals);
+    exchange({}, arrivals);
     list(arrivals);
     handler->update_cached_numbers();
     evaluate_supports();
@@ -88,44 +88,72 @@ namespace Impoint
 
 
 
+  /**
+   * Takes out particles, sorted by cell, and puts in others, which are sorted
+   * then. The pool hands out first what was freed last; so what comes into a
+   * cell gets the memory of what left it, as far as possible: particles that
+   * are neighbours in the grid stay so in memory.
+   */
   template <int dim>
-  void PointCloud<dim>::take_out(const unsigned int          cell,
-                                 const typename Pool::Handle handle)
-  {
-    auto particle = handler->particles_in_cell(basis.grid().cell(cell)).begin();
-    while (particle->get_local_index() != handle)
-      ++particle;
-    handler->remove_particle(particle);
-  }
-
-
-
-  /** Gives the arrivals, which are sorted then, to the handler. */
-  template <int dim>
-  void PointCloud<dim>::put_in(std::vector<Arrival> &arrivals)
+  void PointCloud<dim>::exchange(const std::vector<Departure> &departures,
+                                 std::vector<Arrival>         &arrivals)
   {
     std::sort(arrivals.begin(),
               arrivals.end(),
               [](const Arrival &a, const Arrival &b) {
                 return std::tie(a.cell, a.id) < std::tie(b.cell, b.id);
               });
-    // The pool hands out first the place in memory that was freed last, and
-    // particles are taken out in the order of cells. So, last first, those of
-    // neighbouring cells stay neighbours in memory.
-    for (auto arrival = arrivals.rbegin(); arrival != arrivals.rend();
-         ++arrival)
-      {
-        Point<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = arrival->state[d];
-        const auto particle = handler->insert_particle(
-          x,
-          arrival->reference,
-          arrival->id,
-          basis.grid().cell(arrival->cell),
-          ArrayView<const double>(arrival->state, property_layout.n_doubles()));
-        arrival->handle = particle->get_local_index();
-      }
+    std::vector<unsigned int> out, in, others_out, others_in;
+    unsigned int              d = 0, a = 0;
+    while (d < departures.size() || a < arrivals.size())
+      if (a == arrivals.size() ||
+          (d < departures.size() && departures[d].cell < arrivals[a].cell))
+        others_out.push_back(d++);
+      else if (d == departures.size() || arrivals[a].cell < departures[d].cell)
+        others_in.push_back(a++);
+      else
+        {
+          out.push_back(d++);
+          in.push_back(a++);
+        }
+    out.insert(out.end(), others_out.begin(), others_out.end());
+    in.insert(in.end(), others_in.begin(), others_in.end());
+
+    for (auto i = out.rbegin(); i != out.rend(); ++i)
+      take_out(departures[*i]);
+    for (const unsigned int i : in)
+      put_in(arrivals[i]);
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::take_out(const Departure &departure)
+  {
+    auto particle =
+      handler->particles_in_cell(basis.grid().cell(departure.cell)).begin();
+    while (particle->get_local_index() != departure.handle)
+      ++particle;
+    handler->remove_particle(particle);
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::put_in(Arrival &arrival)
+  {
+    Point<dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = arrival.state[d];
+    arrival.handle =
+      handler
+        ->insert_particle(x,
+                          arrival.reference,
+                          arrival.id,
+                          basis.grid().cell(arrival.cell),
+                          ArrayView<const double>(arrival.state,
+                                                  property_layout.n_doubles()))
+        ->get_local_index();
   }
 
 
@@ -172,6 +200,7 @@ namespace Impoint
     states.resize(handles.size());
     for (std::size_t p = 0; p < handles.size(); ++p)
       states[p] = pool->get_properties(handles[p]).data();
+    place_supports();
   }
 
 
@@ -193,7 +222,7 @@ namespace Impoint
 
 
   template <int dim>
-  void PointCloud<dim>::evaluate_supports()
+  void PointCloud<dim>::place_supports()
   {
     first_support.resize(n());
     std::size_t size = 0;
@@ -204,6 +233,13 @@ namespace Impoint
           first_support[p] = size;
       }
     supports.resize(size);
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::evaluate_supports()
+  {
     for (const Range &range : cell_ranges)
       basis.evaluate(range.cell,
                      ArrayView<const Point<dim>>(references.data() +
@@ -310,7 +346,6 @@ namespace Impoint
             "points were lost between cells: " + std::to_string(n_before) +
             " before, " + std::to_string(n_global()) + " after");
       }
-    tell_places();
     evaluate_supports();
     return changed;
   }
@@ -325,9 +360,10 @@ namespace Impoint
     std::sort(moves.begin(), moves.end(), [](const Move &a, const Move &b) {
       return a.particle < b.particle;
     });
-    const unsigned int   n_doubles = property_layout.n_doubles();
-    std::vector<double>  leaving(moves.size() * n_doubles); // states
-    std::vector<Arrival> arrivals;
+    const unsigned int     n_doubles = property_layout.n_doubles();
+    std::vector<double>    leaving(moves.size() * n_doubles); // states
+    std::vector<Departure> departures;
+    std::vector<Arrival>   arrivals;
     std::map<unsigned int, std::vector<NewParticle>> for_others, from_others;
     auto    range = cell_ranges.begin();
     double *state = leaving.data();
@@ -337,7 +373,7 @@ namespace Impoint
           ++range;
         const types::particle_index id = this->id(move.particle);
         std::copy_n(states[move.particle], n_doubles, state);
-        take_out(range->cell, handles[move.particle]);
+        departures.push_back({range->cell, handles[move.particle]});
         if (move.rank == me)
           arrivals.push_back({move.cell,
                               id,
@@ -353,22 +389,9 @@ namespace Impoint
       from_others = Utilities::MPI::some_to_some(comm, for_others);
     for (const auto &message : from_others)
       announce(message.second, arrivals);
-    put_in(arrivals);
+    exchange(departures, arrivals);
     list(arrivals);
     moves.clear();
-  }
-
-
-
-  /** Tells the handler the places, that it may be asked for them. */
-  template <int dim>
-  void PointCloud<dim>::tell_places()
-  {
-    for (unsigned int p = 0; p < n(); ++p)
-      {
-        pool->set_location(handles[p], position(p));
-        pool->set_reference_location(handles[p], references[p]);
-      }
   }
 
   template class PointCloud<2>;

@@ -24,7 +24,9 @@ namespace Impoint
    * their state is its properties. The lists beside it serve to go over the
    * particles cell by cell at full speed. The handler's own sort is never
    * called, as it visits all cells of the grid and is wrong on simplices: the
-   * few particles that leave their cell are taken out and put in again.
+   * few particles that leave their cell are taken out and put in again. It
+   * knows the places at which they came into their cells; where they are now is
+   * in data().
    *
    * Particles are numbered 0 ... n() - 1 on this rank: cells increasing, those
    * of a cell by their id. Numbers and data() pointers change whenever a
@@ -134,6 +136,13 @@ namespace Impoint
       unsigned int rank;
     };
 
+    /** A particle that leaves a cell of this rank. */
+    struct Departure
+    {
+      unsigned int          cell;
+      typename Pool::Handle handle;
+    };
+
     /** A particle that comes into a cell. */
     struct Arrival
     {
@@ -149,13 +158,15 @@ namespace Impoint
     void change_cells();
     void announce(const std::vector<NewParticle> &particles,
                   std::vector<Arrival>           &arrivals) const;
-    void take_out(const unsigned int cell, const typename Pool::Handle handle);
-    void put_in(std::vector<Arrival> &arrivals);
+    void exchange(const std::vector<Departure> &departures,
+                  std::vector<Arrival>         &arrivals);
+    void take_out(const Departure &departure);
+    void put_in(Arrival &arrival);
     void list(const std::vector<Arrival> &arrivals);
     void append(const unsigned int          cell,
                 const typename Pool::Handle handle,
                 const Point<dim>           &reference);
-    void tell_places();
+    void place_supports();
     void evaluate_supports();
 
     const Basis<dim>                  &basis;
