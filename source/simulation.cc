@@ -60,7 +60,8 @@ namespace Impoint
                                                     scene.linear_solver,
                                                     counters,
                                                     seconds);
-    system->add_term(std::make_unique<InternalForce<dim>>(*points));
+    system->add_term(
+      std::make_unique<InternalForce<dim>>(*points, &end_states));
     if (scene.grid.ghost_factor() > 0)
       system->add_ghost_penalty(scene.grid.ghost_factor(),
                                 dim == 2 ? scene.bodies.front().thickness : 1.);
@@ -265,6 +266,8 @@ namespace Impoint
                        end,
                        body_force(*points, active, body_forces, end),
                        dynamic ? &inertia : nullptr);
+    // Newton's last residual is that of the solution, unless a step is linear.
+    end_states.reinit(*points, !system->is_linear());
   }
 
 
@@ -346,6 +349,7 @@ namespace Impoint
       update_points(active,
                     u,
                     scene.time.is_dynamic() ? &inertia : nullptr,
+                    end_states,
                     *points);
     }
     {

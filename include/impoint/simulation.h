@@ -87,6 +87,7 @@ namespace Impoint
     ActiveNodes<dim>                                             active;
     std::vector<Expression<dim>>                                 body_forces;
     std::unique_ptr<MaterialPoints<dim>>                         points;
+    EndStates<dim>                                               end_states;
     Enforcement::Conforming<dim>                                 conforming;
     typename NonlinearSystem<dim>::Methods                       methods;
     Inertia<dim>                                                 inertia;

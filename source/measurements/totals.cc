@@ -63,6 +63,21 @@ namespace Impoint
 
 
 
+      /** Of dim 2 the z component only. */
+      template <int dim>
+      void add_moment(const Tensor<1, dim> &arm,
+                      const Tensor<1, dim> &force,
+                      Tensor<1, 3>         &sum)
+      {
+        for (unsigned int i = dim == 2 ? 2 : 0; i < 3; ++i)
+          {
+            const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
+            sum[i] += arm[j] * force[k] - arm[k] * force[j];
+          }
+      }
+
+
+
       /** Adds what the other ranks have. */
       template <int dim>
       void add_ranks(Totals<dim> &totals, const MPI_Comm communicator)
@@ -93,11 +108,7 @@ namespace Impoint
     Tensor<1, 3> moment(const Tensor<1, dim> &arm, const Tensor<1, dim> &force)
     {
       Tensor<1, 3> product;
-      for (unsigned int i = dim == 2 ? 2 : 0; i < 3; ++i)
-        {
-          const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
-          product[i] = arm[j] * force[k] - arm[k] * force[j];
-        }
+      add_moment(arm, force, product);
       return product;
     }
 
@@ -121,9 +132,10 @@ namespace Impoint
           if (!dynamic)
             continue;
           const Tensor<1, dim> velocity = points.vector(p, slots.v);
-          sums.momentum += mass * velocity;
-          sums.spin += mass * moment(place, velocity);
-          sums.kinetic_energy += 0.5 * mass * velocity.norm_square();
+          const Tensor<1, dim> momentum = mass * velocity;
+          sums.momentum += momentum;
+          add_moment(place, momentum, sums.spin);
+          sums.kinetic_energy += 0.5 * (momentum * velocity);
         }
       add_ranks(sums, communicator);
       sums.centre /= sums.mass;

@@ -121,6 +121,22 @@ namespace Impoint
                               response);
   }
 
+
+
+  template <int dim>
+  void MaterialPoints<dim>::set_end_state(const unsigned int p,
+                                          const double      *end_state)
+  {
+    constexpr unsigned int n_F     = dim * dim;
+    constexpr unsigned int n_fixed = EndStates<dim>::n_fixed;
+    double                *state   = this->data(p);
+    std::copy(end_state, end_state + n_F, state + slot.F);
+    std::copy(end_state + n_F, end_state + n_fixed, state + slot.stress);
+    std::copy(end_state + n_fixed,
+              end_state + n_fixed + carried_state.n_history,
+              state + slot.history);
+  }
+
   template class MaterialPoints<2>;
   template class MaterialPoints<3>;
 } // namespace Impoint

@@ -3,10 +3,10 @@
 #include <impoint/particles/point_cloud.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/particles/particle_handler.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <tuple>
 
@@ -17,24 +17,29 @@ namespace Impoint
                               const PropertyLayout &layout)
     : basis(basis)
     , property_layout(layout)
-    , pool(std::make_unique<Pool>(property_layout.n_doubles()))
+    , handler(std::make_unique<Handler>(basis.grid().triangulation(),
+                                        basis.grid().mapping(),
+                                        property_layout.n_doubles()))
+    , pool(&handler->get_property_pool())
   {}
 
 
 
   template <int dim>
-  PointCloud<dim>::~PointCloud()
-  {
-    // The pool insists on it.
-    if (pool)
-      for (auto handle : handles)
-        pool->deregister_particle(handle);
-  }
+  PointCloud<dim>::~PointCloud() = default;
 
 
 
   template <int dim>
   PointCloud<dim>::PointCloud(PointCloud &&) noexcept = default;
+
+
+
+  template <int dim>
+  types::particle_index PointCloud<dim>::n_global() const
+  {
+    return handler->n_global_particles();
+  }
 
 
 
@@ -54,50 +59,109 @@ namespace Impoint
   void PointCloud<dim>::insert(const std::vector<NewParticle> &particles)
   {
     std::vector<Arrival> arrivals;
-    pool->reserve(n() + particles.size());
-    take_in(particles, arrivals);
-    list(std::move(arrivals));
-    n_of_all_ranks = Utilities::MPI::sum(types::particle_index(n()),
-                                         basis.grid().communicator());
+    announce(particles, arrivals);
+    handler->reserve(n() + particles.size());
+    exchange({}, arrivals);
+    list(arrivals);
+    handler->update_cached_numbers();
     evaluate_supports();
   }
 
 
 
-  /** Puts the particles' state into the pool. */
   template <int dim>
-  void PointCloud<dim>::take_in(const std::vector<NewParticle> &particles,
-                                std::vector<Arrival>           &arrivals)
+  void PointCloud<dim>::announce(const std::vector<NewParticle> &particles,
+                                 std::vector<Arrival>           &arrivals) const
   {
     for (const NewParticle &particle : particles)
       {
-        Assert(basis.grid().is_owned(particle.cell), ExcInternalError());
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = particle.properties[d];
-        const auto handle = pool->register_particle();
-        pool->set_id(handle, particle.id);
-        std::copy(particle.properties.begin(),
-                  particle.properties.end(),
-                  pool->get_properties(handle).begin());
         arrivals.push_back({particle.cell,
                             particle.id,
-                            handle,
-                            basis.grid().to_reference(particle.cell, x)});
+                            basis.grid().to_reference(particle.cell, x),
+                            particle.properties.data(),
+                            Pool::invalid_handle});
       }
   }
 
 
 
-  /** Renews the lists: without the particles in moves, with the arrivals. */
+  /**
+   * Takes out particles, sorted by cell, and puts in others, which are sorted
+   * then. The pool hands out first what was freed last; so what comes into a
+   * cell gets the memory of what left it, as far as possible: particles that
+   * are neighbours in the grid stay so in memory.
+   */
   template <int dim>
-  void PointCloud<dim>::list(std::vector<Arrival> arrivals)
+  void PointCloud<dim>::exchange(const std::vector<Departure> &departures,
+                                 std::vector<Arrival>         &arrivals)
   {
     std::sort(arrivals.begin(),
               arrivals.end(),
               [](const Arrival &a, const Arrival &b) {
                 return std::tie(a.cell, a.id) < std::tie(b.cell, b.id);
               });
+    std::vector<unsigned int> out, in, others_out, others_in;
+    unsigned int              d = 0, a = 0;
+    while (d < departures.size() || a < arrivals.size())
+      if (a == arrivals.size() ||
+          (d < departures.size() && departures[d].cell < arrivals[a].cell))
+        others_out.push_back(d++);
+      else if (d == departures.size() || arrivals[a].cell < departures[d].cell)
+        others_in.push_back(a++);
+      else
+        {
+          out.push_back(d++);
+          in.push_back(a++);
+        }
+    out.insert(out.end(), others_out.begin(), others_out.end());
+    in.insert(in.end(), others_in.begin(), others_in.end());
+
+    for (auto i = out.rbegin(); i != out.rend(); ++i)
+      take_out(departures[*i]);
+    for (const unsigned int i : in)
+      put_in(arrivals[i]);
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::take_out(const Departure &departure)
+  {
+    auto particle =
+      handler->particles_in_cell(basis.grid().cell(departure.cell)).begin();
+    while (particle->get_local_index() != departure.handle)
+      ++particle;
+    handler->remove_particle(particle);
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::put_in(Arrival &arrival)
+  {
+    Point<dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = arrival.state[d];
+    arrival.handle =
+      handler
+        ->insert_particle(x,
+                          arrival.reference,
+                          arrival.id,
+                          basis.grid().cell(arrival.cell),
+                          ArrayView<const double>(arrival.state,
+                                                  property_layout.n_doubles()))
+        ->get_local_index();
+  }
+
+
+
+  /** Renews the lists: without the particles in moves, with the arrivals. */
+  template <int dim>
+  void PointCloud<dim>::list(const std::vector<Arrival> &arrivals)
+  {
     std::vector<Range>                 old_ranges;
     std::vector<typename Pool::Handle> old_handles;
     std::vector<Point<dim>>            old_references;
@@ -132,7 +196,11 @@ namespace Impoint
       }
     while (arrival != arrivals.cend())
       append_next();
-    place_states(arrivals.size());
+
+    states.resize(handles.size());
+    for (std::size_t p = 0; p < handles.size(); ++p)
+      states[p] = pool->get_properties(handles[p]).data();
+    place_supports();
   }
 
 
@@ -153,28 +221,8 @@ namespace Impoint
 
 
 
-  /** Finds the states in the pool after @p n_new particles came in. */
   template <int dim>
-  void PointCloud<dim>::place_states(const std::size_t n_new)
-  {
-    // Neighbours in the grid should be so in memory, too; but it costs as much
-    // as an assembly to sort all.
-    n_unsorted += n_new;
-    if (4 * n_unsorted > handles.size())
-      {
-        pool->sort_memory_slots(handles);
-        std::iota(handles.begin(), handles.end(), 0);
-        n_unsorted = 0;
-      }
-    states.resize(handles.size());
-    for (std::size_t p = 0; p < handles.size(); ++p)
-      states[p] = pool->get_properties(handles[p]).data();
-  }
-
-
-
-  template <int dim>
-  void PointCloud<dim>::evaluate_supports()
+  void PointCloud<dim>::place_supports()
   {
     first_support.resize(n());
     std::size_t size = 0;
@@ -185,6 +233,13 @@ namespace Impoint
           first_support[p] = size;
       }
     supports.resize(size);
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::evaluate_supports()
+  {
     for (const Range &range : cell_ranges)
       basis.evaluate(range.cell,
                      ArrayView<const Point<dim>>(references.data() +
@@ -283,13 +338,13 @@ namespace Impoint
       Utilities::MPI::max(static_cast<unsigned int>(moves.size()), comm) > 0;
     if (changed)
       {
+        const types::particle_index n_before = n_global();
         change_cells();
-        const types::particle_index n_now =
-          Utilities::MPI::sum(types::particle_index(n()), comm);
-        if (n_now != n_of_all_ranks)
-          throw RunFailed("points were lost between cells: " +
-                          std::to_string(n_of_all_ranks) + " before, " +
-                          std::to_string(n_now) + " after");
+        handler->update_cached_numbers();
+        if (n_global() != n_before)
+          throw RunFailed(
+            "points were lost between cells: " + std::to_string(n_before) +
+            " before, " + std::to_string(n_global()) + " after");
       }
     evaluate_supports();
     return changed;
@@ -305,31 +360,37 @@ namespace Impoint
     std::sort(moves.begin(), moves.end(), [](const Move &a, const Move &b) {
       return a.particle < b.particle;
     });
-    std::vector<Arrival>                             arrivals;
-    std::map<unsigned int, std::vector<NewParticle>> for_others;
+    const unsigned int     n_doubles = property_layout.n_doubles();
+    std::vector<double>    leaving(moves.size() * n_doubles); // states
+    std::vector<Departure> departures;
+    std::vector<Arrival>   arrivals;
+    std::map<unsigned int, std::vector<NewParticle>> for_others, from_others;
+    auto    range = cell_ranges.begin();
+    double *state = leaving.data();
     for (const Move &move : moves)
       {
-        auto &handle = handles[move.particle];
+        while (range->end <= move.particle)
+          ++range;
+        const types::particle_index id = this->id(move.particle);
+        std::copy_n(states[move.particle], n_doubles, state);
+        departures.push_back({range->cell, handles[move.particle]});
         if (move.rank == me)
           arrivals.push_back({move.cell,
-                              pool->get_id(handle),
-                              handle,
-                              references[move.particle]});
+                              id,
+                              references[move.particle],
+                              state,
+                              Pool::invalid_handle});
         else
-          {
-            const double *state = states[move.particle];
-            for_others[move.rank].push_back(
-              {move.cell,
-               pool->get_id(handle),
-               std::vector<double>(state,
-                                   state + property_layout.n_doubles())});
-            pool->deregister_particle(handle);
-          }
+          for_others[move.rank].push_back(
+            {move.cell, id, std::vector<double>(state, state + n_doubles)});
+        state += n_doubles;
       }
     if (Utilities::MPI::n_mpi_processes(comm) > 1)
-      for (const auto &message : Utilities::MPI::some_to_some(comm, for_others))
-        take_in(message.second, arrivals);
-    list(std::move(arrivals));
+      from_others = Utilities::MPI::some_to_some(comm, for_others);
+    for (const auto &message : from_others)
+      announce(message.second, arrivals);
+    exchange(departures, arrivals);
+    list(arrivals);
     moves.clear();
   }
 

@@ -64,7 +64,8 @@ namespace Impoint
                   gathered.pattern.columns.begin());
             }
       }
-    gathered.symmetric = local.symmetric;
+    gathered.symmetric   = local.symmetric;
+    gathered.serves_long = local.serves_long;
     gather_nodes(local);
   }
 

@@ -26,15 +26,17 @@ namespace Impoint
      * three times faster at 9e4 (what lies beyond is extrapolated). A factor
      * serves further solves at a fifteenth to a quarter of an iteration's price
      * and minds the conditioning less, so 2D prefers it while it costs no more
-     * than a tenth of a second. Several ranks iterate together from the same
-     * sizes: on two, both ways take about the same at 6e3 unknowns in 3D, and
-     * iterating a third of the time at 5e4.
+     * than a tenth of a second, if it serves long. If every iteration of
+     * Newton's method asks for a new one, iterating takes half of the time at
+     * 7e3 unknowns and a third at 3e4. Several ranks iterate together from the
+     * same sizes: on two, both ways take about the same at 6e3 unknowns in 3D,
+     * and iterating a third of the time at 5e4.
      */
     template <int dim>
-    std::size_t iterate_from(const bool on_lattice)
+    std::size_t iterate_from(const bool on_lattice, const bool serves_long)
     {
       if (dim == 2)
-        return on_lattice ? 40000 : 400000;
+        return !on_lattice ? 400000 : serves_long ? 40000 : 5000;
       return on_lattice ? 6000 : 60000;
     }
 
@@ -117,6 +119,9 @@ namespace Impoint
                             std::vector<double>       &x);
 
     unsigned int most_iterations_of_old() const;
+
+    /** Factorises from now on, if the problem is of a size for it. */
+    bool gives_up_iterating(const LinearProblem<dim> &problem);
 
     void solve_unsymmetric(const LinearProblem<dim>  &problem,
                            const std::vector<double> &b,
@@ -216,6 +221,20 @@ namespace Impoint
   }
 
   template <int dim>
+  bool LinearSolver<dim>::Implementation::gives_up_iterating(
+    const LinearProblem<dim> &problem)
+  {
+    if (!iterative || parameters.kind != "automatic" ||
+        !problem.nodes.alone() ||
+        problem.n_unknowns() >= iterate_from<dim>(!problem.lines.empty(), true))
+      return false;
+    iterative = false;
+    factor.new_pattern(problem.pattern);
+    renew(problem);
+    return true;
+  }
+
+  template <int dim>
   void LinearSolver<dim>::Implementation::solve_unsymmetric(
     const LinearProblem<dim>  &problem,
     const std::vector<double> &b,
@@ -249,8 +268,9 @@ namespace Impoint
     data.exists = data.current = data.proved = false;
     data.distrust = data.distrusted = 0;
     data.symmetric                  = problem.symmetric;
-    data.iterative                  = problem.symmetric &&
-                     iterative(problem.n_unknowns(), !problem.lines.empty());
+    data.iterative = problem.symmetric && iterative(problem.n_unknowns(),
+                                                    !problem.lines.empty(),
+                                                    problem.serves_long);
     Assert(data.iterative || problem.nodes.alone(), ExcInternalError());
     if (!data.symmetric)
       data.lu.new_pattern(problem.pattern);
@@ -262,11 +282,13 @@ namespace Impoint
 
   template <int dim>
   bool LinearSolver<dim>::iterative(const std::size_t n_unknowns,
-                                    const bool        on_lattice) const
+                                    const bool        on_lattice,
+                                    const bool        serves_long) const
   {
     const std::string &kind = implementation->parameters.kind;
     return kind == "iterative" ||
-           (kind == "automatic" && n_unknowns >= iterate_from<dim>(on_lattice));
+           (kind == "automatic" &&
+            n_unknowns >= iterate_from<dim>(on_lattice, serves_long));
   }
 
   template <int dim>
@@ -306,9 +328,11 @@ namespace Impoint
       data.renew(problem);
 
     IterationControl control;
-    control.tolerance            = tolerance;
-    control.max_iterations       = data.parameters.max_iterations;
-    const IterationResult result = data.iterate(problem, b, control, x);
+    control.tolerance      = tolerance;
+    control.max_iterations = data.parameters.max_iterations;
+    IterationResult result = data.iterate(problem, b, control, x);
+    if (!result.converged && data.gives_up_iterating(problem))
+      result = data.iterate(problem, b, control, x);
     data.iterations_when_new =
       std::max(data.iterations_when_new, result.iterations);
     if (!result.converged)

@@ -11,14 +11,25 @@ namespace Impoint
   {
     template <int dim>
     void gather_at(const ArrayView<const unsigned int> nodes,
-                   const NodalVector                  &vector,
+                   const double                       *local,
                    std::vector<double>                &values)
     {
-      const double *local = vector.begin();
       values.resize(nodes.size() * dim);
       for (unsigned int a = 0; a < nodes.size(); ++a)
         for (unsigned int d = 0; d < dim; ++d)
           values[a * dim + d] = local[nodes[a] * dim + d];
+    }
+
+    /** At the end of the step, of the active nodes and ghosts. */
+    template <int dim>
+    std::vector<double> nodal_accelerations(const ActiveNodes<dim> &active,
+                                            const NodalVector      &u,
+                                            const Inertia<dim>     &inertia)
+    {
+      std::vector<double> values(active.n_nodes() * dim);
+      for (unsigned int i = 0; i < values.size(); ++i)
+        values[i] = inertia.acceleration(i, u.local_element(i));
+      return values;
     }
 
     /** sum_a N_a u_a */
@@ -54,11 +65,14 @@ namespace Impoint
     class CellUpdate
     {
     public:
-      CellUpdate(MaterialPoints<dim> &points, const Inertia<dim> *inertia)
+      CellUpdate(MaterialPoints<dim>  &points,
+                 const Inertia<dim>   *inertia,
+                 const EndStates<dim> &end_states)
         : points(points)
         , slots(points.slots())
         , inertia(inertia)
-        , new_history(points.carried().n_history)
+        , end_states(end_states)
+        , own_end_state(EndStates<dim>::n_fixed + points.carried().n_history)
       {}
 
       /** @p u, @p a: displacements and accelerations of the cell's nodes; @p
@@ -74,7 +88,10 @@ namespace Impoint
           {
             const double *N = points.support(p);
             displace(p, interpolate<dim, n_static>(n, N, u));
-            deform(p, interpolate_gradient<dim, n_static>(n, N + n, u));
+            if (const double *end_state = end_states.data(p))
+              points.set_end_state(p, end_state);
+            else
+              deform(p, interpolate_gradient<dim, n_static>(n, N + n, u));
             if (seen != nullptr)
               filter(p, interpolate<dim, n_static>(n, N, seen));
             if (inertia != nullptr)
@@ -95,20 +112,14 @@ namespace Impoint
 
       void deform(const unsigned int p, const Tensor<2, dim> &grad_u)
       {
-        double *state = points.data(p);
-        points.respond(
-          p, grad_u, false, deformation, response, new_history.data());
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            state[slots.F + i * dim + j] = deformation.F[i][j];
-        for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
-          state[slots.stress + k] = response.stress[k];
-        if (dim == 2)
-          state[slots.stress + Voigt<dim>::n] = response.stress_zz;
-        if (!new_history.empty())
-          std::copy(new_history.begin(),
-                    new_history.end(),
-                    state + slots.history);
+        points.respond(p,
+                       grad_u,
+                       false,
+                       deformation,
+                       response,
+                       own_end_state.data() + EndStates<dim>::n_fixed);
+        EndStates<dim>::store(deformation, response, own_end_state.data());
+        points.set_end_state(p, own_end_state.data());
       }
 
       /** Takes the filtered part of what the grid doesn't see of the velocity.
@@ -136,9 +147,10 @@ namespace Impoint
       MaterialPoints<dim>                       &points;
       const typename MaterialPoints<dim>::Slots &slots;
       const Inertia<dim>                        *inertia;
+      const EndStates<dim>                      &end_states;
       Materials::Deformation<dim>                deformation;
       Materials::Response<dim>                   response;
-      std::vector<double>                        new_history;
+      std::vector<double>                        own_end_state;
     };
   } // namespace
 
@@ -156,7 +168,7 @@ namespace Impoint
       {
         const auto  nodes = active.nodes(k);
         const auto &range = points.ranges()[k];
-        gather_at<dim>(nodes, u, cell_u);
+        gather_at<dim>(nodes, u.begin(), cell_u);
         with_support_size<dim>(nodes.size(), [&](const auto n_static) {
           for (unsigned int p = range.begin; p < range.end; ++p)
             places[p] =
@@ -179,7 +191,7 @@ namespace Impoint
       {
         const auto  nodes = active.nodes(k);
         const auto &range = points.ranges()[k];
-        gather_at<dim>(nodes, accelerations, cell_a);
+        gather_at<dim>(nodes, accelerations.begin(), cell_a);
         for (unsigned int p = range.begin; p < range.end; ++p)
           {
             const Tensor<1, dim> a = interpolate<dim, -1>(nodes.size(),
@@ -197,24 +209,20 @@ namespace Impoint
   void update_points(const ActiveNodes<dim> &active,
                      const NodalVector      &u,
                      const Inertia<dim>     *inertia,
+                     const EndStates<dim>   &end_states,
                      MaterialPoints<dim>    &points)
   {
-    CellUpdate<dim>     update(points, inertia);
-    std::vector<double> cell_u, cell_a, cell_seen;
+    CellUpdate<dim>     update(points, inertia, end_states);
+    std::vector<double> accelerations, cell_u, cell_a, cell_seen;
+    if (inertia != nullptr)
+      accelerations = nodal_accelerations(active, u, *inertia);
     const bool filters = inertia != nullptr && inertia->filtered_part() > 0;
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
         const auto nodes = active.nodes(k);
-        gather_at<dim>(nodes, u, cell_u);
+        gather_at<dim>(nodes, u.begin(), cell_u);
         if (inertia != nullptr)
-          {
-            cell_a.resize(nodes.size() * dim);
-            for (unsigned int a = 0; a < nodes.size(); ++a)
-              for (unsigned int d = 0; d < dim; ++d)
-                cell_a[a * dim + d] =
-                  inertia->acceleration(nodes[a] * dim + d,
-                                        cell_u[a * dim + d]);
-          }
+          gather_at<dim>(nodes, accelerations.data(), cell_a);
         if (filters)
           {
             cell_seen.resize(nodes.size() * dim);
@@ -243,6 +251,7 @@ namespace Impoint
   template void update_points(const ActiveNodes<dim> &,     \
                               const NodalVector &,          \
                               const Inertia<dim> *,         \
+                              const EndStates<dim> &,       \
                               MaterialPoints<dim> &);
 
   IMPOINT_INSTANTIATE(2)

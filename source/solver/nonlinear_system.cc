@@ -93,8 +93,16 @@ namespace Impoint
     assembly.new_active_set();
     problem.pattern   = active.pattern();
     problem.symmetric = points.symmetric_tangent();
+    // On several ranks nothing can factorise where iterating fails.
+    problem.serves_long =
+      points.carried().dynamic ||
+      (points.small_strain() && points.constant_tangent()) ||
+      Utilities::MPI::n_mpi_processes(active.basis().grid().communicator()) > 1;
     for (const auto &method : methods)
-      problem.symmetric &= method->is_symmetric();
+      {
+        problem.symmetric &= method->is_symmetric();
+        problem.serves_long |= method->parameters().has_multipliers();
+      }
     problem.points.resize(active.n_nodes());
     problem.regularisation.assign(active.n_nodes(), 0.);
     const auto &basis = active.basis();
@@ -174,7 +182,7 @@ namespace Impoint
   template <int dim>
   bool NonlinearSystem<dim>::moderate_wanted() const
   {
-    return problem.symmetric && solver.iterative(active);
+    return problem.symmetric && solver.iterative(active, problem);
   }
 
 

@@ -40,7 +40,7 @@ namespace Impoint
   {
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       way = Way::alone;
-    else if (local.symmetric && iterative(active))
+    else if (local.symmetric && iterative(active, local))
       {
         way = Way::together;
         std::vector<NodeExchange::Number> ghosts;
@@ -62,10 +62,12 @@ namespace Impoint
 
 
   template <int dim>
-  bool ParallelSolver<dim>::iterative(const ActiveNodes<dim> &active) const
+  bool ParallelSolver<dim>::iterative(const ActiveNodes<dim>   &active,
+                                      const LinearProblem<dim> &local) const
   {
     return solver.iterative(active.unknowns()->size(),
-                            !active.basis().lines().empty());
+                            !active.basis().lines().empty(),
+                            local.serves_long);
   }
 
 

@@ -153,8 +153,10 @@ namespace Impoint
 
 
   template <int dim>
-  InternalForce<dim>::InternalForce(const MaterialPoints<dim> &points)
+  InternalForce<dim>::InternalForce(const MaterialPoints<dim> &points,
+                                    EndStates<dim>            *end_states)
     : points(points)
+    , end_states(end_states)
   {}
 
 
@@ -190,6 +192,27 @@ namespace Impoint
 
 
   template <int dim>
+  void InternalForce<dim>::respond(const unsigned int           p,
+                                   const Tensor<2, dim>        &grad_u,
+                                   const bool                   tangent_wanted,
+                                   Materials::Deformation<dim> &deformation,
+                                   Materials::Response<dim>    &response) const
+  {
+    double        unused[64];
+    double *const end = end_states != nullptr ? end_states->data(p) : nullptr;
+    points.respond(p,
+                   grad_u,
+                   tangent_wanted,
+                   deformation,
+                   response,
+                   end != nullptr ? end + EndStates<dim>::n_fixed : unused);
+    if (end != nullptr)
+      EndStates<dim>::store(deformation, response, end);
+  }
+
+
+
+  template <int dim>
   template <int n_static, bool symmetric>
   void InternalForce<dim>::add_cell(const unsigned int k,
                                     CellSystem        &system) const
@@ -204,7 +227,6 @@ namespace Impoint
       }
 
     double                      pushed[size * dim];
-    double                      new_history[64];
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
     const auto                 &range = points.ranges()[k];
@@ -213,12 +235,7 @@ namespace Impoint
         const double        *gradients = points.support(p) + n;
         const Tensor<2, dim> grad_u =
           displacement_gradient<dim>(n, system.u, gradients);
-        points.respond(p,
-                       grad_u,
-                       system.matrix != nullptr,
-                       deformation,
-                       response,
-                       new_history);
+        respond(p, grad_u, system.matrix != nullptr, deformation, response);
         const bool finite = !points.material(p).small_strain();
         if (finite)
           {
@@ -252,18 +269,16 @@ namespace Impoint
 
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
-    double                      new_history[64];
     const auto                 &range = points.ranges()[k];
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
         const double *gradients = points.support(p) + n;
         const double  volume    = points.data(p)[points.slots().volume];
-        points.respond(p,
-                       displacement_gradient<dim>(n, system.u, gradients),
-                       p == range.begin,
-                       deformation,
-                       response,
-                       new_history);
+        respond(p,
+                displacement_gradient<dim>(n, system.u, gradients),
+                p == range.begin,
+                deformation,
+                response);
         add_force<dim>(n, volume, response.stress, gradients, system.residual);
         for (int a = 0; a < n; ++a)
           for (int i = 0; i < dim; ++i)

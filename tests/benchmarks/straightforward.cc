@@ -115,7 +115,7 @@ public:
     u.update_ghost_values();
     newton.solve(u);
     find_new_places(active, u, *points);
-    update_points<dim>(active, u, nullptr, *points);
+    update_points<dim>(active, u, nullptr, EndStates<dim>(), *points);
     moved = points->move();
   }
 

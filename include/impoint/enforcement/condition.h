@@ -31,6 +31,12 @@ namespace Impoint
       return middle >= from && middle < until;
     }
 
+    bool has_multipliers() const
+    {
+      return enforcement == "lagrange multiplier" ||
+             enforcement == "augmented Lagrangian";
+    }
+
     std::string name, section;
 
     std::string constraint = "fixed"; // fixed|slip|roller|traction

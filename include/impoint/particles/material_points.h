@@ -119,6 +119,9 @@ namespace Impoint
       return all_symmetric;
     }
 
+    /** Sets what a step makes of point @p p but for its place and motion. */
+    void set_end_state(const unsigned int p, const double *end_state);
+
   private:
     Slots                                  slot;
     CarriedState                           carried_state;
@@ -126,6 +129,55 @@ namespace Impoint
     bool                                   all_small_strain = true;
     bool                                   all_constant     = true;
     bool                                   all_symmetric    = true;
+  };
+
+  /**
+   * What the last evaluation of the residual found of each material point at
+   * the end of the step: F, stress and history. If that was the solution's, the
+   * points take it over, and no material is asked once more.
+   */
+  template <int dim>
+  class EndStates
+  {
+  public:
+    /** Doubles of F and of the stress; the history follows. */
+    static constexpr unsigned int n_fixed =
+      dim * dim + Voigt<dim>::n + (dim == 2 ? 1 : 0);
+
+    /** F and stress of a point. */
+    static void store(const Materials::Deformation<dim> &deformation,
+                      const Materials::Response<dim>    &response,
+                      double                            *end_state)
+    {
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          *end_state++ = deformation.F[i][j];
+      for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
+        *end_state++ = response.stress[k];
+      if constexpr (dim == 2)
+        *end_state = response.stress_zz;
+    }
+
+    /** Makes room for the points, or for none if they are not @p kept. */
+    void reinit(const MaterialPoints<dim> &points, const bool kept)
+    {
+      size = n_fixed + points.carried().n_history;
+      values.resize(kept ? std::size_t(points.n()) * size : 0);
+    }
+
+    /** Of point @p p; null if none are kept. */
+    double *data(const unsigned int p)
+    {
+      return values.empty() ? nullptr : values.data() + std::size_t(p) * size;
+    }
+    const double *data(const unsigned int p) const
+    {
+      return values.empty() ? nullptr : values.data() + std::size_t(p) * size;
+    }
+
+  private:
+    unsigned int        size = 0;
+    std::vector<double> values;
   };
 } // namespace Impoint
 

@@ -9,14 +9,24 @@
 #include <memory>
 #include <vector>
 
+DEAL_II_NAMESPACE_OPEN
+namespace Particles
+{
+  template <int dim, int spacedim>
+  class ParticleHandler;
+}
+DEAL_II_NAMESPACE_CLOSE
+
 namespace Impoint
 {
   /**
-   * Particles of one kind in the grid's cells. Their state lies in deal.II's
-   * pool of properties, as that of a Particles::ParticleHandler does; the lists
-   * beside it serve to go over the particles cell by cell at full speed, and
-   * to put the few that leave their cell into another one without a look at
-   * the rest of the grid.
+   * Particles of one kind in the grid's cells, in deal.II's ParticleHandler:
+   * their state is its properties. The lists beside it serve to go over the
+   * particles cell by cell at full speed. The handler's own sort is never
+   * called, as it visits all cells of the grid and is wrong on simplices: the
+   * few particles that leave their cell are taken out and put in again. It
+   * knows the places at which they came into their cells; where they are now is
+   * in data().
    *
    * Particles are numbered 0 ... n() - 1 on this rank: cells increasing, those
    * of a cell by their id. Numbers and data() pointers change whenever a
@@ -59,10 +69,7 @@ namespace Impoint
     {
       return states.size();
     }
-    types::particle_index n_global() const
-    {
-      return n_of_all_ranks;
-    }
+    types::particle_index n_global() const;
 
     const std::vector<Range> &ranges() const
     {
@@ -119,7 +126,8 @@ namespace Impoint
     }
 
   private:
-    using Pool = Particles::PropertyPool<dim>;
+    using Handler = Particles::ParticleHandler<dim, dim>;
+    using Pool    = Particles::PropertyPool<dim, dim>;
 
     /** A particle that changes its cell. */
     struct Move
@@ -128,39 +136,50 @@ namespace Impoint
       unsigned int rank;
     };
 
-    /** A particle of the pool that comes into a cell. */
+    /** A particle that leaves a cell of this rank. */
+    struct Departure
+    {
+      unsigned int          cell;
+      typename Pool::Handle handle;
+    };
+
+    /** A particle that comes into a cell. */
     struct Arrival
     {
       unsigned int          cell;
       types::particle_index id;
-      typename Pool::Handle handle;
       Point<dim>            reference; // coordinates in the cell
+      const double         *state;
+      typename Pool::Handle handle; // once it is in
     };
 
     void find_strays(const std::vector<Point<dim>>   &new_places,
                      const std::vector<unsigned int> &strays);
     void change_cells();
-    void take_in(const std::vector<NewParticle> &particles,
-                 std::vector<Arrival>           &arrivals);
-    void list(std::vector<Arrival> arrivals);
+    void announce(const std::vector<NewParticle> &particles,
+                  std::vector<Arrival>           &arrivals) const;
+    void exchange(const std::vector<Departure> &departures,
+                  std::vector<Arrival>         &arrivals);
+    void take_out(const Departure &departure);
+    void put_in(Arrival &arrival);
+    void list(const std::vector<Arrival> &arrivals);
     void append(const unsigned int          cell,
                 const typename Pool::Handle handle,
                 const Point<dim>           &reference);
-    void place_states(const std::size_t n_new);
+    void place_supports();
     void evaluate_supports();
 
     const Basis<dim>                  &basis;
     PropertyLayout                     property_layout;
-    std::unique_ptr<Pool>              pool;
-    types::particle_index              n_of_all_ranks = 0;
+    std::unique_ptr<Handler>           handler;
+    Pool                              *pool; // the handler's
     std::vector<Range>                 cell_ranges;
     std::vector<typename Pool::Handle> handles;
     std::vector<double *>              states; // in the pool
     std::vector<Point<dim>>            references;
     std::vector<std::size_t>           first_support;
     std::vector<double>                supports;
-    std::vector<Move>                  moves;          // of find(), for move()
-    std::size_t                        n_unsorted = 0; // in memory
+    std::vector<Move>                  moves; // of find(), for move()
   };
 } // namespace Impoint
 

@@ -50,6 +50,10 @@ namespace Impoint
     /** Whether the values are symmetric; the pattern is. */
     bool symmetric = true;
 
+    /** Whether a matrix, or one much like it, is solved with many times: in
+     * linear and dynamic scenes, and with multipliers. */
+    bool serves_long = true;
+
     /** The same with moderate enforcement, if has_moderate. */
     BlockMatrix<dim> moderate;
     bool             has_moderate = false;
@@ -88,9 +92,10 @@ namespace Impoint
     void new_pattern(const LinearProblem<dim> &problem);
 
     /** Whether moderate is wanted for a problem of this size. Without a lattice
-     * iterating pays later: leave that out and moderate may come in vain. */
+     * or with matrices that serve long iterating pays later. */
     bool iterative(const std::size_t n_unknowns,
-                   const bool        on_lattice = true) const;
+                   const bool        on_lattice,
+                   const bool        serves_long) const;
 
     /** Tells that the matrix changed; a factor kept from before may go on
      * serving as preconditioner. */

@@ -31,12 +31,13 @@ namespace Impoint
 
   /** Places, displacements, deformation gradients, stresses and histories of
    * the points after the step, and their velocities unless @p inertia is
-   * null. */
+   * null. @p end_states, if they are kept, are those at @p u. */
   template <int dim>
   void update_points(const ActiveNodes<dim>                           &active,
                      const LinearAlgebra::distributed::Vector<double> &u,
                      const Inertia<dim>                               *inertia,
-                     MaterialPoints<dim>                              &points);
+                     const EndStates<dim> &end_states,
+                     MaterialPoints<dim>  &points);
 } // namespace Impoint
 
 #endif

@@ -28,7 +28,8 @@ namespace Impoint
      * in their compact numbering. */
     void new_pattern(const ActiveNodes<dim>   &active,
                      const LinearProblem<dim> &local);
-    bool iterative(const ActiveNodes<dim> &active) const;
+    bool iterative(const ActiveNodes<dim>   &active,
+                   const LinearProblem<dim> &local) const;
     void new_matrix(const LinearProblem<dim> &local);
     void solve(const LinearProblem<dim> &local,
                const Vector             &b,

@@ -15,7 +15,9 @@ namespace Impoint
   class InternalForce : public Term<dim>
   {
   public:
-    explicit InternalForce(const MaterialPoints<dim> &points);
+    /** @p end_states, if not null, receives what each evaluation finds. */
+    explicit InternalForce(const MaterialPoints<dim> &points,
+                           EndStates<dim>            *end_states = nullptr);
 
     void add(const unsigned int k, CellSystem &system) const override;
 
@@ -28,7 +30,14 @@ namespace Impoint
 
     bool one_constant_tangent(const unsigned int k) const;
 
+    void respond(const unsigned int           p,
+                 const Tensor<2, dim>        &grad_u,
+                 const bool                   tangent_wanted,
+                 Materials::Deformation<dim> &deformation,
+                 Materials::Response<dim>    &response) const;
+
     const MaterialPoints<dim> &points;
+    EndStates<dim>            *end_states;
   };
 } // namespace Impoint
 
