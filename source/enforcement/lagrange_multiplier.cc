@@ -11,6 +11,10 @@ namespace Impoint
       // In units of E/h. A linear solve reduces the gap by this factor, and
       // looses its reciprocal in digits of the material's stiffness.
       constexpr double best_factor = 1e6;
+
+      // The same with contact: beside a large factor round-off of the gap would
+      // decide on what sticks and slides.
+      constexpr double best_factor_of_contact = 1e2;
     } // namespace
 
 
@@ -36,7 +40,10 @@ namespace Impoint
       TractionLaw law;
       law.augmented = true;
       law.gamma =
-        user_chooses_factor ? this->factor(r) : best_factor * this->unit(r);
+        user_chooses_factor ?
+          this->factor(r) :
+          this->unit(r) *
+            (this->is_linear() ? best_factor : best_factor_of_contact);
       return law;
     }
 

@@ -135,9 +135,20 @@ namespace Impoint
       virtual std::vector<double> multipliers() const;
       virtual void set_multipliers(const std::vector<double> &values);
 
-      /** From now on in this step what touches goes on touching: ends a cycle
-       * of the active set. */
-      virtual void freeze();
+      /** The last add() was at the place that a correction starts from. */
+      virtual void begin_correction();
+
+      /** Whether something touches, lets go or slides that did not when the
+       * correction began. */
+      virtual bool contact_changed() const;
+
+      /** Whether all that was assumed of contact in the last add() is what the
+       * law says. */
+      virtual bool contact_settled() const;
+
+      /** Whether what touches shall go on touching: ends a cycle of the active
+       * set. */
+      virtual void freeze(const bool wanted);
 
       /** Stores gap, force and multiplier of the converged step for range
        * @p r; @p u is null where the condition does not act. */
