@@ -174,7 +174,11 @@ namespace Impoint
               }
           }
         else if (!ghost_penalty || !ghost_penalty->holds(k))
-          empty_cells.add(k, system);
+          {
+            empty_cells.add(k, system);
+            if (tangent_wanted && inertia != nullptr && in_contact[k])
+              empty_cells.anchor(k, system);
+          }
         scatter_residual(k);
         if (tangent_wanted)
           scatter(k, problem->matrix);
