@@ -121,11 +121,16 @@ namespace Impoint
         normals.reinit(this->condition.normals, *this, *step.active);
       if (this->condition.releasing)
         {
-          std::vector<char> closed(this->boundary->n());
-          for (unsigned int b = 0; b < closed.size(); ++b)
-            closed[b] = is_closed(b);
+          near.resize(this->boundary->n());
+          for (unsigned int b = 0; b < near.size(); ++b)
+            near[b] = is_closed(b);
           proximity =
-            distances(*this->boundary, closed, *step.active, *step.points);
+            distances(*this->boundary, near, *step.active, *step.points);
+          // without material before it nothing is held
+          const double h = step.active->basis().grid().smallest_size();
+          for (unsigned int b = 0; b < near.size(); ++b)
+            near[b] =
+              proximity[b].edge <= 0 || (near[b] && proximity[b].edge < h);
         }
       left_out.clear();
       if (removes_superfluous())

@@ -45,10 +45,7 @@ namespace Impoint
     template <int dim>
     bool GapMethod<dim>::is_near(const unsigned int b) const
     {
-      return !this->condition.releasing || proximity[b].edge <= 0 ||
-             (is_closed(b) &&
-              proximity[b].edge <
-                this->current.active->basis().grid().smallest_size());
+      return !this->condition.releasing || near[b];
     }
 
 

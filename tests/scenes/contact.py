@@ -2,7 +2,8 @@
 
 Argument: 'friction' (a block on a plane sticks or slides as Coulomb says), 'fall'
 (a block bounces, no point passes the floor, the impulse is the change of
-momentum) or 'rolling' (a cylinder on a plane slides or rolls).
+momentum), 'rolling' (a cylinder on a plane slides, spins or rolls) or 'rod' (a
+turning rod pushes a block).
 """
 
 import csv
@@ -72,17 +73,61 @@ def friction():
                 expect(abs(late[-1] - late[0]) < 1e-6, f"{what}: creeps")
 
 
+def momenta(history, mass, speed):
+    """After each step: the mean velocity of a step is that of its ends."""
+    velocity, path, time = -speed, 0, 0
+    for row in history:
+        step, time = row["time"] - time, row["time"]
+        travel, path = row["centre path"] - path, row["centre path"]
+        velocity = 2 * travel / step - velocity
+        yield mass * velocity
+
+
 def fall():
+    mass = 1000
     for speed in (0.1, 1, 10, 100):
         for travel in (1, 0.05):
             method = METHODS[1] if travel == 1 else METHODS[3]
             step = travel * 0.1 / speed
-            end = max(3 * step, 0.02 / speed + 0.1)
             summary, history = rows("beyond/fall.prm", [
                 f"Bodies/block/Initial velocity = 0; {-speed}",
                 f"Boundaries/floor/Enforcement = {method}",
-                f"Time/Step = {step}", f"Time/End time = {end}"])
-            print(speed, travel, len(history), summary["results"])
+                f"Time/Step = {step}",
+                f"Time/End time = {max(3 * step, 0.02 / speed + 0.06)}"])
+            momentum = list(momenta(history, mass, speed))
+            error = max(abs(row["floor I_y"] - m - mass * speed)
+                        for row, m in zip(history, momentum)) / (mass * speed)
+            depth = summary["results"]["under depth"]["value"]
+            print(f"{speed} m/s, {len(history)} steps, {method}: then "
+                  f"{momentum[-1] / mass:.4f} m/s, impulse {error:.1e} off, "
+                  f"{depth:.3f} h deep, {summary['counts']['halved steps']} halved")
+            expect(momentum[-1] > -0.1 * mass * speed, "the block goes on falling")
+            expect(error < 1e-6, "the impulse is not the change of momentum")
+            expect(depth < 0.05, "points pass the floor")
 
 
-{"friction": friction, "fall": fall}[sys.argv[1]]()
+def rolling():
+    for scene, allowed in (
+            ("beyond/friction-cylinder.prm", (5e-3, 5e-2)),
+            ("penalty/4.3-rolling-cylinder.prm", (3e-2, 3e-2)),
+            ("penalty/4.3-rolling-cylinder-3d.prm", (3e-2, 0.15))):
+        results = rows(scene, [])[0]["results"]
+        for part, bound in zip(("path", "angle"), allowed):
+            error = results[f"centre {part}"]["error"]
+            print(f"{scene}: {part} {error:.1e}")
+            expect(error < bound, f"{scene}: {part}")
+
+
+def rod():
+    for method in METHODS:
+        summary, _ = rows("beyond/rotating-rod.prm",
+                          [f"Boundaries/rod/Enforcement = {method}"])
+        results = summary["results"]
+        print(method, summary["counts"]["halved steps"], {
+            name: f"{result['error']:.1e}" for name, result in results.items()})
+        for name, result in results.items():
+            expect(result["error"] < 2e-2, f"{method}: {name}")
+
+
+{"friction": friction, "fall": fall, "rolling": rolling,
+ "rod": rod}[sys.argv[1]]()

@@ -33,6 +33,11 @@ SCENES = {
     "sand": ("penalty/4.2-granular-column.prm",
              ["Time/End time = 0.03", "Output/Pictures every = 0"]),
     "falling block": (HERE / "ranks_falling_block.prm", []),
+    "contact": ("beyond/fall.prm",
+                ["Output/Pictures every = 0", "Time/End time = 0.1",
+                 "Boundaries/floor/Enforcement = lagrange multiplier"]),
+    "friction": ("beyond/friction-block.prm",
+                 ["Output/Pictures every = 0", "Time/End time = 0.1"]),
 }
 for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary"):
     clamp = f"Boundaries/clamp/Enforcement = {method}"

@@ -117,6 +117,7 @@ namespace Impoint
       NodalNormals<dim>      normals;
       std::vector<char>      left_out;  // per range: superfluous
       std::vector<Proximity> proximity; // per particle, of a releasing boundary
+      std::vector<char>      near;      // the same, at the start of the step
 
       // per particle: multiplier of the iterate; what the patch that it begins
       // did last, and where the correction began
