@@ -11,8 +11,12 @@ namespace Impoint
   {
     namespace
     {
-      // A point that gets that far beyond a wall in one step has passed it [h].
+      // A point that gets that far beyond a wall has passed it [h], ...
       constexpr double passed = 0.05;
+
+      // ... if at least that part of it in one step: smaller steps let the wall
+      // push it back in time.
+      constexpr double fast = 0.2;
 
       /** A piece of wall, as all ranks know it. */
       template <int dim>
@@ -194,7 +198,7 @@ namespace Impoint
                        (wall_places[m][b] - methods[m]->particles().position(b))
                          .norm_square());
       fastest = std::sqrt(Utilities::MPI::max(fastest, comm));
-      if (fastest <= passed * h)
+      if (fastest <= fast * passed * h)
         return;
 
       int          crossed = 0;
@@ -214,7 +218,8 @@ namespace Impoint
                                      after  = new_places[p] - facet.new_x;
                 const double from           = before * facet.normal,
                              to             = after * facet.normal;
-                if (to <= passed * h || to - from <= passed * h || from > 0)
+                if (to <= passed * h || from > passed * h ||
+                    to - from <= fast * passed * h)
                   return;
                 // where it meets the plane of the facet
                 const double         part = from / (from - to);
