@@ -213,7 +213,7 @@ namespace Impoint
     // is changed in one line.
     refuse(conforming || traction, {"Releasing"}, kind);
     refuse(constraint != "slip" || conforming, {"Friction coefficient"}, kind);
-    refuse(enforcement != "penalty" && enforcement != "projected penalty",
+    refuse(enforcement == "implicit boundary",
            {"Releasing", "Friction coefficient"},
            "'Enforcement' is '" + enforcement + "', which always holds");
     refuse(constraint != "slip" || conforming, {"Normals"}, kind);

@@ -102,7 +102,29 @@ namespace Impoint
 
 
     template <int dim>
-    void Method<dim>::freeze()
+    void Method<dim>::begin_correction()
+    {}
+
+
+
+    template <int dim>
+    bool Method<dim>::contact_changed() const
+    {
+      return false;
+    }
+
+
+
+    template <int dim>
+    bool Method<dim>::contact_settled() const
+    {
+      return true;
+    }
+
+
+
+    template <int dim>
+    void Method<dim>::freeze(const bool)
     {}
 
 

@@ -1,5 +1,4 @@
 #include <impoint/enforcement/gap_method.h>
-#include <impoint/enforcement/proximity.h>
 #include <impoint/enforcement/superfluous_constraints.h>
 
 #include <algorithm>
@@ -70,7 +69,8 @@ namespace Impoint
     template <int dim>
     bool GapMethod<dim>::removes_superfluous() const
     {
-      return this->condition.superfluous == "remove";
+      return !this->condition.releasing &&
+             this->condition.superfluous == "remove";
     }
 
 
@@ -109,7 +109,8 @@ namespace Impoint
       if (!this->active_now)
         return;
       frozen = false;
-      touches.assign(this->boundary->n(), Touch::sticks);
+      contacts.assign(this->boundary->n(), {});
+      first_contacts = contacts;
       multiplier.resize(this->boundary->n());
       for (unsigned int b = 0; b < multiplier.size(); ++b)
         multiplier[b] =
@@ -117,7 +118,18 @@ namespace Impoint
       if (normal_only)
         normals.reinit(this->condition.normals, *this, *step.active);
       if (this->condition.releasing)
-        distance = distances(*this->boundary, *step.active, *step.points);
+        {
+          near.resize(this->boundary->n());
+          for (unsigned int b = 0; b < near.size(); ++b)
+            near[b] = is_closed(b);
+          proximity =
+            distances(*this->boundary, near, *step.active, *step.points);
+          // without material before it nothing is held
+          const double h = step.active->basis().grid().smallest_size();
+          for (unsigned int b = 0; b < near.size(); ++b)
+            near[b] =
+              proximity[b].edge <= 0 || (near[b] && proximity[b].edge < h);
+        }
       left_out.clear();
       if (removes_superfluous())
         left_out = superfluous_constraints(*this->boundary, *step.active);
@@ -155,10 +167,43 @@ namespace Impoint
     typename GapMethod<dim>::Patch::Answer
     GapMethod<dim>::answer(const Patch &patch, const double *u) const
     {
-      Touch     &touch  = touches[patch.begin];
-      const auto result = patch.answer(u, frozen ? &touch : nullptr);
-      touch             = result.touch;
-      return result;
+      auto &contact = contacts[patch.begin];
+      contact.trial = patch.trial(u);
+      if (!frozen)
+        {
+          contact.touch     = patch.law.touch(patch.normal, contact.trial);
+          contact.overruled = reverses(patch, contact);
+          if (contact.overruled)
+            contact.touch = Touch::sticks;
+        }
+      return patch.answer(contact);
+    }
+
+
+
+    /** Whether it slides against the way that it was thought to slide when the
+     * correction began. Between such directions lies a state that sticks; a
+     * correction that went from one to the other could do so for ever. */
+    template <int dim>
+    bool GapMethod<dim>::reverses(const Patch                   &patch,
+                                  const typename Patch::Contact &contact) const
+    {
+      const auto &first = first_contacts[patch.begin];
+      return contact.touch == Touch::slides && first.touch == Touch::slides &&
+             contact.trial * first.trial <
+               (contact.trial * patch.normal) * (first.trial * patch.normal);
+    }
+
+
+
+    /** Linear about the last answer(). */
+    template <int dim>
+    Tensor<1, dim> GapMethod<dim>::linear_traction(const Patch  &patch,
+                                                   const double *u) const
+    {
+      const auto &contact = contacts[patch.begin];
+      const auto  answer  = patch.answer(contact);
+      return answer.traction + answer.slope * (patch.trial(u) - contact.trial);
     }
 
 
@@ -178,7 +223,7 @@ namespace Impoint
         strength == Strength::exact ?
           1. :
           std::min(1., moderate_factor * unit(r) / patch.law.stiffness());
-      patch.add_stiffness(part * answer.stiffness, system);
+      patch.add_stiffness(part * patch.law.stiffness() * answer.slope, system);
     }
 
 
@@ -202,11 +247,11 @@ namespace Impoint
       for_patches(r, [&](Patch patch) {
         if (!patch.law.augmented)
           return;
-        const Tensor<1, dim> t = answer(patch, system.u).traction;
+        const Tensor<1, dim> t = linear_traction(patch, system.u);
         for (unsigned int b = patch.begin; b < patch.end; ++b)
           multiplier[b] = t;
         patch.multiplier = t;
-        patch.add_force(answer(patch, system.u).traction - t, system);
+        patch.add_force(linear_traction(patch, system.u) - t, system);
       });
     }
 
@@ -244,10 +289,52 @@ namespace Impoint
 
 
 
+    /** What does not touch has no multiplier. */
     template <int dim>
-    void GapMethod<dim>::freeze()
+    void GapMethod<dim>::begin_correction()
     {
-      frozen = true;
+      first_contacts = contacts;
+      for_active_ranges(*this,
+                        *this->current.active,
+                        [&](const unsigned int r, const unsigned int) {
+                          for_patches(r, [&](const Patch &patch) {
+                            if (contacts[patch.begin].touch == Touch::open)
+                              std::fill(multiplier.begin() + patch.begin,
+                                        multiplier.begin() + patch.end,
+                                        Tensor<1, dim>());
+                          });
+                        });
+    }
+
+
+
+    template <int dim>
+    bool GapMethod<dim>::contact_changed() const
+    {
+      for (unsigned int b = 0; b < contacts.size(); ++b)
+        if (contacts[b].touch != first_contacts[b].touch)
+          return true;
+      return false;
+    }
+
+
+
+    template <int dim>
+    bool GapMethod<dim>::contact_settled() const
+    {
+      return std::none_of(contacts.begin(),
+                          contacts.end(),
+                          [](const auto &contact) {
+                            return contact.overruled;
+                          });
+    }
+
+
+
+    template <int dim>
+    void GapMethod<dim>::freeze(const bool wanted)
+    {
+      frozen = wanted;
     }
 
 
@@ -288,13 +375,14 @@ namespace Impoint
                                const double                 *u)
     {
       const auto &slots = this->boundary->slots();
+      const Touch touch = contacts[patch.begin].touch;
       for (unsigned int b = patch.begin; b < patch.end; ++b)
         {
           const Patch    alone = this->alone(r, b);
           Tensor<1, dim> gap   = alone.gap(u);
-          if (answer.touch == Touch::open)
+          if (touch == Touch::open || !is_in(patch, b))
             gap = Tensor<1, dim>();
-          else if (answer.touch == Touch::slides)
+          else if (touch == Touch::slides)
             {
               // along the wall, what the spring of a penalty goes on holding
               const Tensor<1, dim> along =
@@ -307,9 +395,10 @@ namespace Impoint
           // what the wall does to the material is minus what the residual holds
           const Tensor<1, dim> force =
             this->boundary->area(b) * alone.total(answer.traction);
-          if (is_in(patch, b))
-            this->boundary->set_vector(b, slots.force, -force);
           this->boundary->set_vector(b, slots.gap, gap);
+          if (!is_in(patch, b))
+            continue;
+          this->boundary->set_vector(b, slots.force, -force);
           if (patch.law.augmented)
             this->boundary->set_vector(b, slots.multiplier, answer.traction);
         }

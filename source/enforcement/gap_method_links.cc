@@ -4,6 +4,21 @@ namespace Impoint
 {
   namespace Enforcement
   {
+    namespace
+    {
+      /** Without contact: what holds goes on holding. */
+      template <int dim>
+      typename GapPatch<dim>::Answer held(const GapPatch<dim> &patch,
+                                          const double        *u)
+      {
+        typename GapPatch<dim>::Contact contact;
+        contact.trial = patch.trial(u);
+        return patch.answer(contact);
+      }
+    } // namespace
+
+
+
     template <int dim>
     bool GapMethod<dim>::shares_constraints() const
     {
@@ -52,7 +67,7 @@ namespace Impoint
                                   CellSystem        &system) const
     {
       add_patch(link_patches[l],
-                link_patches[l].answer(system.u, nullptr),
+                held(link_patches[l], system.u),
                 shared.middle(l),
                 strength,
                 system);
@@ -65,9 +80,9 @@ namespace Impoint
                                                  CellSystem        &system)
     {
       Patch               &patch = link_patches[l];
-      const Tensor<1, dim> t     = patch.answer(system.u, nullptr).traction;
+      const Tensor<1, dim> t     = held(patch, system.u).traction;
       patch.multiplier           = t;
-      patch.add_force(patch.answer(system.u, nullptr).traction - t, system);
+      patch.add_force(held(patch, system.u).traction - t, system);
     }
 
 
@@ -83,8 +98,7 @@ namespace Impoint
       for (unsigned int l = 0; l < link_patches.size(); ++l)
         {
           displacements(l, u);
-          tractions.push_back(
-            link_patches[l].answer(u.data(), nullptr).traction);
+          tractions.push_back(held(link_patches[l], u.data()).traction);
         }
       shared_tractions =
         shared.distribute(tractions,

@@ -1,6 +1,7 @@
 #include <impoint/enforcement/gap_method.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace Impoint
 {
@@ -44,7 +45,16 @@ namespace Impoint
     template <int dim>
     bool GapMethod<dim>::is_near(const unsigned int b) const
     {
-      return !this->condition.releasing || distance[b] <= 0 || is_closed(b);
+      return !this->condition.releasing || near[b];
+    }
+
+
+
+    /** How far the material is away. */
+    template <int dim>
+    double GapMethod<dim>::away(const unsigned int b) const
+    {
+      return is_near(b) ? 0. : proximity[b].edge;
     }
 
 
@@ -52,7 +62,7 @@ namespace Impoint
     template <int dim>
     bool GapMethod<dim>::is_in(const Patch &patch, const unsigned int b) const
     {
-      return !patch.near_only || is_near(b);
+      return away(b) <= patch.reach;
     }
 
 
@@ -65,11 +75,18 @@ namespace Impoint
       const Tensor<1, dim> normal = this->boundary->vector(b, slots.normal);
       const Tensor<1, dim> wall   = this->boundary->vector(b, slots.increment);
       Tensor<1, dim>       gap    = this->boundary->vector(b, slots.gap);
-      const double         away   = is_near(b) ? 0. : distance[b];
+      Tensor<1, dim>       first;
+      first[0] = 1.;
+      if (this->condition.releasing && proximity[b].depth > 0)
+        {
+          // no point stays beyond the wall
+          const Tensor<1, dim> across = normal_only ? first : normal;
+          gap += std::max(0., proximity[b].depth - gap * across) * across;
+        }
       if (normal_only)
-        gap[0] -= normal * wall + away;
+        gap[0] -= normal * wall + away(b);
       else
-        gap -= wall + away * normal;
+        gap -= wall + away(b) * normal;
       return gap;
     }
 
@@ -110,8 +127,15 @@ namespace Impoint
                     this->boundary->ranges()[r].cell));
       patch.begin = begin;
       patch.end   = end;
+      // where nothing touches, what will touch first, at about the same time
+      constexpr double same    = 0.05; // [h]
+      double           nearest = std::numeric_limits<double>::max();
       for (unsigned int b = begin; b < end; ++b)
-        patch.near_only |= is_near(b);
+        nearest = std::min(nearest, away(b));
+      patch.reach = nearest;
+      if (nearest > 0)
+        patch.reach +=
+          same * this->current.active->basis().grid().smallest_size();
       for (unsigned int b = begin; b < end; ++b)
         if (is_in(patch, b))
           patch.area += this->boundary->area(b);

@@ -30,18 +30,23 @@ namespace Impoint
 
 
     template <int dim>
+    Tensor<1, dim> GapPatch<dim>::trial(const double *u) const
+    {
+      const Tensor<1, dim> t = law.gamma * gap(u);
+      return law.augmented ?
+               (multiplier + t) / (1. + law.gamma * law.compliance) :
+               t;
+    }
+
+
+
+    template <int dim>
     typename GapPatch<dim>::Answer
-    GapPatch<dim>::answer(const double *u, const Touch *frozen) const
+    GapPatch<dim>::answer(const Contact &contact) const
     {
       Answer result;
-      result.traction = law.gamma * gap(u);
-      if (law.augmented)
-        result.traction =
-          (multiplier + result.traction) / (1. + law.gamma * law.compliance);
-      for (unsigned int d = 0; d < dim; ++d)
-        result.stiffness[d][d] = law.stiffness();
-      result.touch = frozen ? *frozen : law.touch(normal, result.traction);
-      law.cut(result.touch, normal, result.traction, result.stiffness);
+      result.traction = contact.trial;
+      result.slope    = law.cut(contact.touch, normal, result.traction);
       return result;
     }
 

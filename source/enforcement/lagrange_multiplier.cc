@@ -10,8 +10,11 @@ namespace Impoint
     {
       // In units of E/h. A linear solve reduces the gap by this factor, and
       // looses its reciprocal in digits of the material's stiffness.
-      // Constraints that cells share differ enough for the smaller factor.
-      constexpr double best_factor = 1e6, best_shared_factor = 1e4;
+      // Constraints that cells share differ enough for the smaller factor. With
+      // contact, round-off of the gap beside a large factor would decide on what
+      // sticks and slides.
+      constexpr double best_factor = 1e6, best_shared_factor = 1e4,
+                       best_factor_of_contact = 1e2;
     } // namespace
 
 
@@ -35,12 +38,17 @@ namespace Impoint
                                              const double) const
     {
       TractionLaw law;
-      law.augmented     = true;
-      const bool shared = this->shares_constraints() &&
-                          this->current.active->basis().degree() == 1;
-      law.gamma = user_chooses_factor ?
-                    this->factor(r) :
-                    (shared ? best_shared_factor : best_factor) * this->unit(r);
+      law.augmented = true;
+      if (user_chooses_factor)
+        law.gamma = this->factor(r);
+      else if (!this->is_linear())
+        law.gamma = best_factor_of_contact * this->unit(r);
+      else
+        law.gamma = this->unit(r) *
+                    (this->shares_constraints() &&
+                         this->current.active->basis().degree() == 1 ?
+                       best_shared_factor :
+                       best_factor);
       return law;
     }
 

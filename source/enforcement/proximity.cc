@@ -11,8 +11,12 @@ namespace Impoint
   {
     namespace
     {
-      // A point that gets that far beyond a wall in one step has passed it [h].
+      // A point that gets that far beyond a wall has passed it [h], ...
       constexpr double passed = 0.05;
+
+      // ... if at least that part of it in one step: smaller steps let the wall
+      // push it back in time.
+      constexpr double fast = 0.2;
 
       /** A piece of wall, as all ranks know it. */
       template <int dim>
@@ -21,6 +25,7 @@ namespace Impoint
         Point<dim>     x, new_x;
         Tensor<1, dim> normal;
         double         radius = 0;
+        double         search = 1; // factor of how far aside points may be
       };
 
 
@@ -30,6 +35,7 @@ namespace Impoint
       std::vector<Facet<dim>>
       all_facets(const BoundaryParticles<dim>  &boundary,
                  const std::vector<Point<dim>> &new_places,
+                 const std::vector<char>       &closed,
                  const MPI_Comm                 communicator)
       {
         std::vector<double> own;
@@ -44,6 +50,7 @@ namespace Impoint
             own.push_back(0.5 *
                           std::pow(boundary.area(b) / boundary.thickness(),
                                    1. / (dim - 1)));
+            own.push_back(!closed.empty() && closed[b] ? 2. : 1.);
           }
         std::vector<Facet<dim>> facets;
         for (const auto &part : Utilities::MPI::all_gather(communicator, own))
@@ -57,6 +64,7 @@ namespace Impoint
                   facet.normal[d] = *number++;
                 }
               facet.radius = *number++;
+              facet.search = *number++;
               facets.push_back(facet);
             }
         return facets;
@@ -118,30 +126,37 @@ namespace Impoint
 
 
     template <int dim>
-    std::vector<double> distances(const BoundaryParticles<dim> &boundary,
-                                  const ActiveNodes<dim>       &active,
-                                  const MaterialPoints<dim>    &points)
+    std::vector<Proximity> distances(const BoundaryParticles<dim> &boundary,
+                                     const std::vector<char>      &closed,
+                                     const ActiveNodes<dim>       &active,
+                                     const MaterialPoints<dim>    &points)
     {
       const auto             &grid = active.basis().grid();
       const double            h    = grid.smallest_size();
       std::vector<Point<dim>> places(boundary.n());
       for (unsigned int b = 0; b < boundary.n(); ++b)
         places[b] = boundary.position(b);
-      const auto facets = all_facets(boundary, places, grid.communicator());
-      std::vector<double> distance(facets.size(), h);
+      const auto facets =
+        all_facets(boundary, places, closed, grid.communicator());
+      std::vector<double> edge(facets.size(), h), centre(facets.size(), 0.);
       for (unsigned int i = 0; i < facets.size(); ++i)
         for_points_near(
           facets[i].x, h, active, points, [&](const unsigned int p) {
             const Tensor<1, dim> away   = facets[i].x - points.position(p);
             const double         before = away * facets[i].normal;
             const double half = half_edge(points, p, boundary.thickness());
-            if (before > -h &&
-                aside(away, facets[i].normal) <=
-                  std::max(facets[i].radius, half) * (1. + 1e-10))
-              distance[i] = std::min(distance[i], before - half);
+            if (before > -h && aside(away, facets[i].normal) <=
+                                 facets[i].search *
+                                   std::max(facets[i].radius, half) *
+                                   (1. + 1e-10))
+              {
+                edge[i]   = std::min(edge[i], before - half);
+                centre[i] = std::min(centre[i], before);
+              }
           });
-      if (!distance.empty())
-        Utilities::MPI::min(distance, grid.communicator(), distance);
+      if (!edge.empty())
+        for (auto *values : {&edge, &centre})
+          Utilities::MPI::min(*values, grid.communicator(), *values);
 
       const auto counts =
         Utilities::MPI::all_gather(grid.communicator(), boundary.n());
@@ -149,8 +164,10 @@ namespace Impoint
         Utilities::MPI::this_mpi_process(grid.communicator());
       const unsigned int first =
         std::accumulate(counts.begin(), counts.begin() + rank, 0U);
-      return std::vector<double>(distance.begin() + first,
-                                 distance.begin() + first + boundary.n());
+      std::vector<Proximity> own(boundary.n());
+      for (unsigned int b = 0; b < own.size(); ++b)
+        own[b] = {edge[first + b], -centre[first + b]};
+      return own;
     }
 
 
@@ -181,7 +198,7 @@ namespace Impoint
                        (wall_places[m][b] - methods[m]->particles().position(b))
                          .norm_square());
       fastest = std::sqrt(Utilities::MPI::max(fastest, comm));
-      if (fastest <= passed * h)
+      if (fastest <= fast * passed * h)
         return;
 
       int          crossed = 0;
@@ -190,7 +207,7 @@ namespace Impoint
       for (unsigned int m = 0; m < methods.size(); ++m)
         if (methods[m]->is_active() && methods[m]->constrains())
           for (const auto &facet :
-               all_facets(methods[m]->particles(), wall_places[m], comm))
+               all_facets(methods[m]->particles(), wall_places[m], {}, comm))
             for_points_near(
               facet.x,
               h + 2. * fastest,
@@ -201,7 +218,8 @@ namespace Impoint
                                      after  = new_places[p] - facet.new_x;
                 const double from           = before * facet.normal,
                              to             = after * facet.normal;
-                if (to <= passed * h || to - from <= passed * h || from > 0)
+                if (to <= passed * h || from > passed * h ||
+                    to - from <= fast * passed * h)
                   return;
                 // where it meets the plane of the facet
                 const double         part = from / (from - to);
@@ -214,15 +232,16 @@ namespace Impoint
         throw StepFailed("a material point would pass a wall in one step");
     }
 
-#define IMPOINT_INSTANTIATE(dim)                                               \
-  template std::vector<double> distances(const BoundaryParticles<dim> &,       \
-                                         const ActiveNodes<dim> &,             \
-                                         const MaterialPoints<dim> &);         \
-  template void                check_crossing(const Methods<dim> &,            \
-                                              const ActiveNodes<dim> &,        \
-                                              const MaterialPoints<dim> &,     \
-                                              const std::vector<Point<dim>> &, \
-                                              const std::vector<std::vector<Point<dim>>> &);
+#define IMPOINT_INSTANTIATE(dim)                                                  \
+  template std::vector<Proximity> distances(const BoundaryParticles<dim> &,       \
+                                            const std::vector<char> &,            \
+                                            const ActiveNodes<dim> &,             \
+                                            const MaterialPoints<dim> &);         \
+  template void                   check_crossing(const Methods<dim> &,            \
+                                                 const ActiveNodes<dim> &,        \
+                                                 const MaterialPoints<dim> &,     \
+                                                 const std::vector<Point<dim>> &, \
+                                                 const std::vector<std::vector<Point<dim>>> &);
 
     IMPOINT_INSTANTIATE(2)
     IMPOINT_INSTANTIATE(3)

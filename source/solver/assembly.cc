@@ -2,6 +2,7 @@
 #include <impoint/solver/assembly.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Impoint
 {
@@ -59,6 +60,22 @@ namespace Impoint
     hourglass.reinit(starved);
     return Utilities::MPI::sum(starved.size(),
                                active.basis().grid().communicator());
+  }
+
+
+
+  /** In dynamics the mass holds what few points cannot see. Next to none of it
+   * is not enough where contact opens and closes. */
+  template <int dim>
+  void Assembly<dim>::begin_step()
+  {
+    in_contact.assign(active.n_cells(), false);
+    for (const auto &method : methods)
+      if (method->is_active() && !method->is_linear())
+        Enforcement::for_active_ranges(
+          *method, active, [&](const unsigned int, const unsigned int k) {
+            in_contact[k] = true;
+          });
   }
 
 
@@ -140,10 +157,13 @@ namespace Impoint
           {
             for (const auto &term : terms)
               term->add(k, system);
-            // In dynamics the mass holds what few points cannot see.
-            if (inertia == nullptr && next_starved < hourglass.cells().size() &&
+            if (next_starved < hourglass.cells().size() &&
                 hourglass.cells()[next_starved] == k)
-              hourglass.add(next_starved++, system);
+              {
+                if (inertia == nullptr || in_contact[k])
+                  hourglass.add(next_starved, system);
+                ++next_starved;
+              }
             if (inertia != nullptr && inertia->consistent())
               {
                 accelerations_of(k);
@@ -154,7 +174,11 @@ namespace Impoint
               }
           }
         else if (!ghost_penalty || !ghost_penalty->holds(k))
-          empty_cells.add(k, system);
+          {
+            empty_cells.add(k, system);
+            if (tangent_wanted && inertia != nullptr && in_contact[k])
+              empty_cells.anchor(k, system);
+          }
         scatter_residual(k);
         if (tangent_wanted)
           scatter(k, problem->matrix);
@@ -238,17 +262,24 @@ namespace Impoint
 
 
 
-  /** Lumped mass: a diagonal that each node's owner adds. */
+  /** Lumped mass: a diagonal that each node's owner adds. Returns the norm of
+   * the inertia force, which balances all others in free flight. */
   template <int dim>
-  void Assembly<dim>::add_inertia(const Vector &u, const bool tangent_wanted)
+  double Assembly<dim>::add_inertia(const Vector &u, const bool tangent_wanted)
   {
+    double norm_square = 0;
     for (unsigned int i = 0; i < active.n_owned_nodes(); ++i)
       {
         const double mass = inertia->mass(i);
         for (unsigned int d = 0; d < dim; ++d)
-          rest.local_element(i * dim + d) +=
-            mass * inertia->balanced_acceleration(i * dim + d,
-                                                  u.local_element(i * dim + d));
+          {
+            const double force =
+              mass *
+              inertia->balanced_acceleration(i * dim + d,
+                                             u.local_element(i * dim + d));
+            rest.local_element(i * dim + d) += force;
+            norm_square += force * force;
+          }
         if (tangent_wanted)
           {
             const auto row   = problem->pattern.columns.begin();
@@ -260,6 +291,8 @@ namespace Impoint
               block[d * dim + d] += inertia->alpha() * mass;
           }
       }
+    return std::sqrt(
+      Utilities::MPI::sum(norm_square, active.basis().grid().communicator()));
   }
 
 
@@ -300,11 +333,12 @@ namespace Impoint
     // at rest it has no force
     if (ghost_penalty && part == Part::all)
       assemble_ghost_penalty(u, tangent_wanted);
+    double scale = external.l2_norm();
     if (inertia != nullptr &&
         (part == Part::constraints || !inertia->consistent()))
-      add_inertia(u, tangent_wanted);
+      scale = std::max(scale, add_inertia(u, tangent_wanted));
     rest.compress(VectorOperation::add);
-    const double internal = rest.l2_norm();
+    scale = std::max(scale, rest.l2_norm());
     rest.zero_out_ghost_values();
 
     bool constrained = false;
@@ -320,8 +354,7 @@ namespace Impoint
     rest = 0;
     assemble_boundaries(u, tangent_wanted, part);
     rest.compress(VectorOperation::add);
-    const double scale =
-      std::max({internal, rest.l2_norm(), external.l2_norm()});
+    scale = std::max(scale, rest.l2_norm());
     rest += before;
     rest -= external;
     residual = rest;

@@ -49,30 +49,57 @@ namespace Impoint
   {
     Vector delta;
     history.assign(1, system.evaluate(u, true));
+    n_balanced  = 0;
+    bool frozen = false;
     for (unsigned int iteration = 0; iteration < parameters.max_iterations;
          ++iteration)
       {
         ++counters.newton_iterations;
-        if (2 * iteration >= parameters.max_iterations)
-          system.freeze(); // ends a cycle of what touches
+        if (iteration == parameters.max_iterations / 2)
+          system.freeze(frozen = true); // ends a cycle of what touches
         system.correct(iteration == 0, u, delta);
         if (system.is_linear())
           return finish_linear_step(delta, u);
         history.push_back(advance(delta, !expects_convergence(), u));
-        const double size      = u.linfty_norm();
-        const double increment = size > 0 ? delta.linfty_norm() / size : 0.;
-        const double residual  = history.back();
-        const bool   small     = increment <= parameters.increment_tolerance;
-        if (small && (residual <= parameters.tolerance ||
-                      residual <= system.round_off(u)))
-          return;
-        if (!tangent_is_new)
+        if (has_converged(delta, u))
+          {
+            if (!frozen)
+              return;
+            system.freeze(frozen = false);
+            history.back() = system.evaluate(u, true);
+            if (history.back() <= parameters.tolerance &&
+                system.contact_settled())
+              return;
+          }
+        else if (!tangent_is_new)
           system.evaluate(u, true);
       }
     std::ostringstream text;
     text << "Newton's iteration left a relative residual of " << history.back()
          << " after " << parameters.max_iterations << " iterations";
     throw StepFailed(text.str());
+  }
+
+
+
+  /** Where contact opens and closes at next to no force, displacements of
+   * nodes that hold next to no material jump with it for ever: there, forces
+   * that stay in balance are enough. */
+  template <int dim>
+  bool Newton<dim>::has_converged(const Vector &delta, const Vector &u)
+  {
+    constexpr unsigned int enough = 3;
+    const double           size   = u.linfty_norm();
+    const double increment        = size > 0 ? delta.linfty_norm() / size : 0.;
+    const double residual         = history.back();
+    if (!system.contact_settled())
+      return false;
+    n_balanced = residual <= parameters.tolerance ? n_balanced + 1 : 0;
+    if (n_balanced == enough && system.has_kinks())
+      return true;
+    return increment <= parameters.increment_tolerance &&
+           (residual <= parameters.tolerance ||
+            residual <= system.round_off(u));
   }
 
 
@@ -151,9 +178,10 @@ namespace Impoint
             tangent_is_new        = tangent_wanted && cut == 0;
             const double residual = system.evaluate(u, tangent_is_new);
             // The first correction brings prescribed displacements in: there
-            // is nothing to compare its residual with.
+            // is nothing to compare its residual with. Nor is there where other
+            // constraints act: then the residual may well grow on the way.
             if (last || history.size() == 1 ||
-                std::isfinite(residual) == false ||
+                std::isfinite(residual) == false || system.contact_changed() ||
                 residual <= parameters.tolerance ||
                 residual <=
                   (must_descend ? 1. - least_descent * part : worst_growth) *

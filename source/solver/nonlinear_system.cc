@@ -131,6 +131,7 @@ namespace Impoint
     inertia  = step_inertia;
     held     = conforming.held_nodes(active, start, end);
     scale    = 0;
+    assembly.begin_step();
     multipliers.begin_step();
     problem.enforced.assign(active.n_nodes(), false);
     for (const auto &method : methods)
@@ -303,6 +304,11 @@ namespace Impoint
     if (!new_matrix)
       return;
     new_matrix = false;
+    if (indefinite)
+      {
+        problem.symmetric = new_problem = true;
+        indefinite                      = false;
+      }
     if (has_held_nodes())
       {
         cut_nodes(problem.matrix);
@@ -315,6 +321,30 @@ namespace Impoint
     if (new_problem && inertia == nullptr)
       solver.check_rigid_modes(problem);
     new_problem = false;
+  }
+
+
+
+  /** In dynamics masses hold what stresses would make buckle, but for nodes
+   * with next to none: then the tangent is as good as before, but not positive
+   * definite, and pivots have to be chosen. */
+  template <int dim>
+  void NonlinearSystem<dim>::solve(const Vector &right, Vector &delta)
+  {
+    try
+      {
+        solver.solve(problem, right, delta);
+      }
+    catch (const StepFailed &)
+      {
+        if (inertia == nullptr || !problem.symmetric)
+          throw;
+        indefinite        = true;
+        problem.symmetric = false;
+        solver.new_pattern(active, problem);
+        solver.new_matrix(problem);
+        solver.solve(problem, right, delta);
+      }
   }
 
 
@@ -338,7 +368,10 @@ namespace Impoint
     right.update_ghost_values();
     cut(held, false, right);
     prepare_solver();
-    solver.solve(problem, right, delta);
+    for (const auto &method : methods)
+      if (method->is_active())
+        method->begin_correction();
+    solve(right, delta);
     delta.update_ghost_values();
     cut(held, first, delta);
 
@@ -346,24 +379,6 @@ namespace Impoint
     if (is_augmented())
       multiplier_forces = multipliers.find(
         u, external.l2_norm(), right.l2_norm(), is_linear(), delta);
-  }
-
-
-
-  template <int dim>
-  void NonlinearSystem<dim>::cut_multipliers(const double fraction)
-  {
-    if (is_augmented())
-      multipliers.cut(fraction);
-  }
-
-
-
-  template <int dim>
-  void NonlinearSystem<dim>::freeze()
-  {
-    for (const auto &method : methods)
-      method->freeze();
   }
 
 

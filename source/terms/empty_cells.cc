@@ -116,6 +116,22 @@ namespace Impoint
       add_point(point, system);
   }
 
+
+
+  template <int dim>
+  void EmptyCells<dim>::anchor(const unsigned int k, CellSystem &system) const
+  {
+    constexpr double   part   = 1e-6; // of the cell's own stiffness
+    const auto        &matrix = matrices[k - active.n_material_cells()];
+    const unsigned int n      = system.n;
+    for (unsigned int a = 0; a < n; ++a)
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          const unsigned int at = (a * n + a) * dim * dim + i * dim + i;
+          system.matrix[at] += part * matrix[at];
+        }
+  }
+
   template class EmptyCells<2>;
   template class EmptyCells<3>;
 } // namespace Impoint

@@ -33,6 +33,14 @@ SCENES = {
     "sand": ("penalty/4.2-granular-column.prm",
              ["Time/End time = 0.03", "Output/Pictures every = 0"]),
     "falling block": (HERE / "ranks_falling_block.prm", []),
+    "contact": ("beyond/fall.prm",
+                ["Output/Pictures every = 0", "Time/End time = 0.1",
+                 # so small that ranks share the block
+                 "Grid/Arguments = 30, 20 : -1.5, -0.55 : 1.5, 1.45",
+                 "Boundaries/floor/Polyline = -1.2 0; 1.2 0",
+                 "Boundaries/floor/Enforcement = lagrange multiplier"]),
+    "friction": ("beyond/friction-block.prm",
+                 ["Output/Pictures every = 0", "Time/End time = 0.1"]),
 }
 for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary"):
     clamp = f"Boundaries/clamp/Enforcement = {method}"

@@ -136,9 +136,20 @@ namespace Impoint
       virtual std::vector<double> multipliers() const;
       virtual void set_multipliers(const std::vector<double> &values);
 
-      /** From now on in this step what touches goes on touching: ends a cycle
-       * of the active set. */
-      virtual void freeze();
+      /** The last add() was at the place that a correction starts from. */
+      virtual void begin_correction();
+
+      /** Whether something touches, lets go or slides that did not when the
+       * correction began. */
+      virtual bool contact_changed() const;
+
+      /** Whether all that was assumed of contact in the last add() is what the
+       * law says. */
+      virtual bool contact_settled() const;
+
+      /** Whether what touches shall go on touching: ends a cycle of the active
+       * set. */
+      virtual void freeze(const bool wanted);
 
       /** Puts the displacements of the nodes of its link @p l into @p u. */
       using LinkDisplacements =

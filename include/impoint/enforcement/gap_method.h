@@ -3,6 +3,7 @@
 
 #include <impoint/enforcement/gap_patch.h>
 #include <impoint/enforcement/nodal_normals.h>
+#include <impoint/enforcement/proximity.h>
 #include <impoint/enforcement/shared_constraints.h>
 
 namespace Impoint
@@ -20,7 +21,9 @@ namespace Impoint
      * round-off of 1/c erases the material's stiffness.
      *
      * A releasing boundary that does not touch takes its gap from where the
-     * material is; particles that touch make up the patch of their cell.
+     * material is; particles that touch make up the patch of their cell, or
+     * those that will touch first. In a linear solve contact is what it was at
+     * the last evaluation (a primal-dual active set): there the law is linear.
      */
     template <int dim>
     class GapMethod : public Method<dim>
@@ -37,7 +40,6 @@ namespace Impoint
                                              CellSystem        &system) override;
       std::vector<double> multipliers() const override;
       void set_multipliers(const std::vector<double> &values) override;
-      void freeze() override;
       void add_link(const unsigned int l,
                     const Strength     strength,
                     CellSystem        &system) const override;
@@ -45,6 +47,10 @@ namespace Impoint
                                    CellSystem        &system) override;
       void end_links(
         const typename Method<dim>::LinkDisplacements &displacements) override;
+      void begin_correction() override;
+      bool contact_changed() const override;
+      bool contact_settled() const override;
+      void freeze(const bool wanted) override;
       void end_step(const unsigned int r, const double *u) override;
 
     protected:
@@ -108,10 +114,14 @@ namespace Impoint
 
       bool           is_closed(const unsigned int b) const;
       bool           is_near(const unsigned int b) const;
+      double         away(const unsigned int b) const;
       bool           is_in(const Patch &patch, const unsigned int b) const;
       Tensor<1, dim> start_gap(const unsigned int b) const;
 
       typename Patch::Answer answer(const Patch &patch, const double *u) const;
+      bool                   reverses(const Patch                   &patch,
+                                      const typename Patch::Contact &contact) const;
+      Tensor<1, dim> linear_traction(const Patch &patch, const double *u) const;
 
       void add_patch(const Patch                  &patch,
                      const typename Patch::Answer &answer,
@@ -127,15 +137,17 @@ namespace Impoint
       const bool projected;
       const bool normal_only; // whether only the normal gap counts
 
-      NodalNormals<dim>   normals;
-      std::vector<char>   left_out; // per range: superfluous
-      std::vector<double> distance; // per particle, of a releasing boundary
+      NodalNormals<dim>      normals;
+      std::vector<char>      left_out;  // per range: superfluous
+      std::vector<Proximity> proximity; // per particle, of a releasing boundary
+      std::vector<char>      near;      // the same, at the start of the step
 
       // per particle: multiplier of the iterate; what the patch that it begins
-      // did last
-      std::vector<Tensor<1, dim>> multiplier;
-      mutable std::vector<Touch>  touches;
-      bool                        frozen = false;
+      // did last, and where the correction began
+      std::vector<Tensor<1, dim>>                  multiplier;
+      mutable std::vector<typename Patch::Contact> contacts;
+      std::vector<typename Patch::Contact>         first_contacts;
+      bool                                         frozen = false;
 
       SharedConstraints<dim>      shared;
       std::vector<Patch>          link_patches;     // with the multiplier now

@@ -22,21 +22,30 @@ namespace Impoint
     {
       static constexpr unsigned int largest_support = 64; // cubic splines in 3D
 
-      /** The traction [Pa], and what it answers to a change of the gap. */
+      /** What the patch does, at the traction that it would take without
+       * bounds. */
+      struct Contact
+      {
+        Touch          touch = Touch::sticks;
+        Tensor<1, dim> trial;
+        bool           overruled = false; // the law says otherwise
+      };
+
+      /** The traction [Pa], and what it answers to a change of the trial. */
       struct Answer
       {
         Tensor<1, dim> traction;
-        Tensor<2, dim> stiffness;
-        Touch          touch = Touch::sticks;
+        Tensor<2, dim> slope;
       };
 
       GapPatch(const bool normal_only, const unsigned int n_nodes);
 
       Tensor<1, dim> gap(const double *u) const;
 
-      /** What the law answers to the gap at the displacements @p u of the cell.
-       * @p frozen, if not null, is what the patch shall do. */
-      Answer answer(const double *u, const Touch *frozen) const;
+      /** The traction without bounds at the displacements @p u of the cell. */
+      Tensor<1, dim> trial(const double *u) const;
+
+      Answer answer(const Contact &contact) const;
 
       /** Adds A L^T t to the residual. */
       void add_force(const Tensor<1, dim> &traction, CellSystem &system) const;
@@ -51,8 +60,8 @@ namespace Impoint
       const bool         normal_only;
       const unsigned int n_nodes;
       unsigned int       begin = 0, end = 0; // particles
-      double             area      = 0;
-      bool               near_only = false; // of particles that touch
+      double             area  = 0;
+      double             reach = 0; // how far its particles are away
       Tensor<1, dim>     normal, start_gap, multiplier;
       TractionLaw        law;
 

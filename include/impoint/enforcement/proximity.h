@@ -9,17 +9,26 @@ namespace Impoint
 {
   namespace Enforcement
   {
+    /** Where the material is, seen from a boundary particle along its normal.
+     */
+    struct Proximity
+    {
+      double edge =
+        0; // of the nearest material point; below 0: beyond the wall
+      double depth = 0; // how far a point's centre is beyond the wall
+    };
+
     /**
-     * How far the material is from the particles of a boundary: for each of
-     * this rank's, along its normal, from the edge of the nearest material
-     * point that lies before it. Negative where a point reaches beyond, one
-     * cell size where none is near. A point reaches half the edge of the cube
-     * of its volume. Collective.
+     * How far the material is from each of this rank's particles of a boundary;
+     * one cell size where none is near. A point reaches half the edge of the
+     * cube of its volume; along the wall, to find a particle that was @p
+     * closed, the double. Collective.
      */
     template <int dim>
-    std::vector<double> distances(const BoundaryParticles<dim> &boundary,
-                                  const ActiveNodes<dim>       &active,
-                                  const MaterialPoints<dim>    &points);
+    std::vector<Proximity> distances(const BoundaryParticles<dim> &boundary,
+                                     const std::vector<char>      &closed,
+                                     const ActiveNodes<dim>       &active,
+                                     const MaterialPoints<dim>    &points);
 
     /**
      * Throws StepFailed, on all ranks, if a material point would pass one of

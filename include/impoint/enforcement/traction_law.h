@@ -50,37 +50,36 @@ namespace Impoint
       }
 
       /**
-       * Cuts the traction @p t to what @p touch allows; @p stiffness becomes
-       * its derivative by the gap, not symmetric where it slides.
+       * Cuts the traction @p t to what @p touch allows; returns the derivative
+       * of what is left by what was, not symmetric where it slides.
        */
       template <int dim>
-      void cut(const Touch           touch,
-               const Tensor<1, dim> &normal,
-               Tensor<1, dim>       &t,
-               Tensor<2, dim>       &stiffness) const
+      Tensor<2, dim> cut(const Touch           touch,
+                         const Tensor<1, dim> &normal,
+                         Tensor<1, dim>       &t) const
       {
+        const Tensor<2, dim> one(unit_symmetric_tensor<dim>());
         if (touch == Touch::open)
           {
-            t         = Tensor<1, dim>();
-            stiffness = Tensor<2, dim>();
+            t = Tensor<1, dim>();
+            return Tensor<2, dim>();
           }
         if (touch != Touch::slides)
-          return;
+          return one;
         const double         pressure = normal * t;
         const Tensor<1, dim> along    = t - pressure * normal;
         const double         length   = along.norm();
         if (length == 0)
-          return;
+          return one;
         const double         part   = bound(pressure) / length;
         const Tensor<2, dim> across = outer_product(normal, normal);
-        const Tensor<2, dim> one(unit_symmetric_tensor<dim>());
-        const Tensor<1, dim> way = along / length;
+        const Tensor<1, dim> way    = along / length;
         Tensor<2, dim>       change =
           across + part * (one - across - outer_product(way, way));
         if (pressure > 0)
           change += friction * outer_product(way, normal);
-        stiffness = change * stiffness;
-        t         = pressure * normal + part * along;
+        t = pressure * normal + part * along;
+        return change;
       }
 
     private:

@@ -55,6 +55,9 @@ namespace Impoint
      * them and returns how many there are on all ranks. Collective. */
     std::size_t find_starved_cells();
 
+    /** What acts in the step is known. */
+    void begin_step();
+
     /**
      * Sets @p residual, and if wanted the matrix of @p problem (as this rank's
      * sum; conforming boundaries not yet eliminated) and its moderate variant.
@@ -90,21 +93,22 @@ namespace Impoint
                     const bool         tangent_wanted,
                     CellSystem        &system);
     template <typename Function>
-    void add_boundary(const unsigned int k,
-                      const Vector      &u,
-                      const bool         tangent_wanted,
-                      const Function    &contribute);
-    void assemble_ghost_penalty(const Vector &u, const bool tangent_wanted);
-    void accelerations_of(const unsigned int k);
-    void add_inertia(const Vector &u, const bool tangent_wanted);
-    void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
-    void scatter_residual(const unsigned int k);
+    void   add_boundary(const unsigned int k,
+                        const Vector      &u,
+                        const bool         tangent_wanted,
+                        const Function    &contribute);
+    void   assemble_ghost_penalty(const Vector &u, const bool tangent_wanted);
+    void   accelerations_of(const unsigned int k);
+    double add_inertia(const Vector &u, const bool tangent_wanted);
+    void   scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
+    void   scatter_residual(const unsigned int k);
 
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;
     Methods                                &methods;
     EmptyCells<dim>                         empty_cells;
     Hourglass<dim>                          hourglass;
+    std::vector<char>                       in_contact; // per active cell
     ConsistentMass<dim>                     consistent_mass;
     std::vector<std::unique_ptr<Term<dim>>> terms;
     std::unique_ptr<GhostPenalty<dim>>      ghost_penalty; // or null

@@ -58,6 +58,7 @@ namespace Impoint
 
     void finish_linear_step(Vector &delta, Vector &u);
 
+    bool has_converged(const Vector &delta, const Vector &u);
     bool expects_convergence() const;
     bool stalls() const;
 
@@ -66,6 +67,7 @@ namespace Impoint
     Counters              &counters;
     std::vector<double>    history;
     bool                   tangent_is_new = false; // with the last residual
+    unsigned int           n_balanced     = 0;     // iterates in a row
   };
 } // namespace Impoint
 

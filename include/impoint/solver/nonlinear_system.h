@@ -93,8 +93,19 @@ namespace Impoint
      * multipliers. */
     void cut_multipliers(const double fraction);
 
-    /** What touches and slides goes on doing so in this step. */
-    void freeze();
+    /** Whether contact or friction make kinks in the forces. */
+    bool has_kinks() const;
+
+    /** Whether the last evaluation met one since the last correction.
+     * Collective. */
+    bool contact_changed() const;
+
+    /** Whether the last evaluation took all contact as the law says.
+     * Collective. */
+    bool contact_settled() const;
+
+    /** What touches and slides goes on doing so, or not any longer. */
+    void freeze(const bool wanted);
 
     /** Whether the last correction holds displacements that conforming
      * boundaries prescribe, on any rank. */
@@ -139,6 +150,7 @@ namespace Impoint
     double force_scale_of_strain() const;
     void   prescribe(const bool first, Vector &delta);
     void   prepare_solver();
+    void   solve(const Vector &right, Vector &delta);
 
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;
@@ -154,6 +166,7 @@ namespace Impoint
     MethodOfMultipliers<dim> multipliers;
     bool                     new_problem = true; // since the solver last heard
     bool                     new_matrix  = true;
+    bool                     indefinite  = false; // the tangent
     Vector                   external, rest, full_rest;
     const Inertia<dim>      *inertia    = nullptr;
     double                   scale      = 0; // forces that balance [N]

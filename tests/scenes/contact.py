@@ -1,0 +1,133 @@
+"""Contact and friction at walls that do not follow the grid, by each method.
+
+Argument: 'friction' (a block on a plane sticks or slides as Coulomb says), 'fall'
+(a block bounces, no point passes the floor, the impulse is the change of
+momentum), 'rolling' (a cylinder on a plane slides, spins or rolls) or 'rod' (a
+turning rod pushes a block).
+"""
+
+import csv
+import math
+import sys
+
+from driver import expect, run_scene
+
+METHODS = ["penalty", "projected penalty", "augmented Lagrangian",
+           "lagrange multiplier"]
+G = 9.81
+
+
+def rows(scene, settings):
+    summary = run_scene(scene, "run", ["Output/Pictures every = 0", *settings])
+    with open("run/history.csv") as file:
+        return summary, [{name: float(value) for name, value in row.items()}
+                         for row in csv.DictReader(file)]
+
+
+def acceleration(history, column, start):
+    """Of a parabola through the times from start on, by least squares."""
+    late = [row for row in history if row["time"] > start - 1e-9]
+    mean = sum(row["time"] for row in late) / len(late)
+    t = [row["time"] - mean for row in late]
+    second = sum(x**2 for x in t) / len(t)
+    third = sum(x**3 for x in t) / len(t)
+    weights = [x**2 - second - third / second * x for x in t]
+    return 2 * (sum(w * row[column] for w, row in zip(weights, late)) /
+                sum(w * x**2 for w, x in zip(weights, t)))
+
+
+def block(degrees, part, rotation, method):
+    """The block on a plane with friction of a part of tan(angle)."""
+    angle = math.radians(degrees)
+    c, s = math.cos(angle), math.sin(angle)
+    friction = part * s / c
+    summary, history = rows("beyond/friction-block.prm", [
+        f"Grid/Rotation = {rotation}",
+        f"Bodies/block/Mesh/Rotation = {-degrees}",
+        f"Bodies/block/Mesh/Shift = {0.3 * c}, {-0.3 * s}",
+        f"Boundaries/plane/Polyline = 0 0; {3 * c} {-3 * s}",
+        f"Boundaries/plane/Friction coefficient = {friction}",
+        f"Boundaries/plane/Enforcement = {method}",
+        f"Measurements/centre/Direction = {c}, {-s}",
+        "Time/End time = 0.4"])
+    return summary, history, G * (s - friction * c)
+
+
+def friction():
+    for i, degrees in enumerate((20, 30, 45)):
+        for j, rotation in enumerate((-degrees, 0, 17 - degrees)):
+            method = METHODS[(i + j) % 4]
+            what = f"{degrees} degrees, grid at {rotation}, {method}"
+            summary, history, exact = block(degrees, 0.9, rotation, method)
+            error = acceleration(history, "centre path", 0.2) / exact - 1
+            print(f"{what}: acceleration {error:.1e}, "
+                  f"{summary['counts']['halved steps']} steps halved")
+            expect(abs(error) < 1e-3, f"{what}: sliding is {error:.1e} off")
+            if i == j:
+                _, history, _ = block(degrees, 1.1, rotation, method)
+                late = [row["centre path"] for row in history
+                        if row["time"] > 0.3 - 1e-9]
+                print(f"{what}: sticks at {late[-1]:.2e} m, then moves "
+                      f"{late[-1] - late[0]:.1e} m")
+                expect(0 < late[-1] < 2e-4, f"{what}: does not stick")
+                expect(abs(late[-1] - late[0]) < 1e-6, f"{what}: creeps")
+
+
+def momenta(history, mass, speed):
+    """After each step: the mean velocity of a step is that of its ends."""
+    velocity, path, time = -speed, 0, 0
+    for row in history:
+        step, time = row["time"] - time, row["time"]
+        travel, path = row["centre path"] - path, row["centre path"]
+        velocity = 2 * travel / step - velocity
+        yield mass * velocity
+
+
+def fall():
+    mass = 1000
+    for speed in (0.1, 1, 10, 100):
+        for travel in (1, 0.05):
+            method = METHODS[1] if travel == 1 else METHODS[3]
+            step = travel * 0.1 / speed
+            summary, history = rows("beyond/fall.prm", [
+                f"Bodies/block/Initial velocity = 0; {-speed}",
+                f"Boundaries/floor/Enforcement = {method}",
+                f"Time/Step = {step}",
+                f"Time/End time = {max(3 * step, 0.02 / speed + 0.06)}"])
+            momentum = list(momenta(history, mass, speed))
+            error = max(abs(row["floor I_y"] - m - mass * speed)
+                        for row, m in zip(history, momentum)) / (mass * speed)
+            depth = summary["results"]["under depth"]["value"]
+            print(f"{speed} m/s, {len(history)} steps, {method}: then "
+                  f"{momentum[-1] / mass:.4f} m/s, impulse {error:.1e} off, "
+                  f"{depth:.3f} h deep, {summary['counts']['halved steps']} halved")
+            expect(momentum[-1] > -0.1 * mass * speed, "the block goes on falling")
+            expect(error < 1e-6, "the impulse is not the change of momentum")
+            expect(depth < 0.05, "points pass the floor")
+
+
+def rolling():
+    for scene, allowed in (
+            ("beyond/friction-cylinder.prm", (5e-3, 5e-2)),
+            ("penalty/4.3-rolling-cylinder.prm", (3e-2, 3e-2)),
+            ("penalty/4.3-rolling-cylinder-3d.prm", (3e-2, 0.15))):
+        results = rows(scene, [])[0]["results"]
+        for part, bound in zip(("path", "angle"), allowed):
+            error = results[f"centre {part}"]["error"]
+            print(f"{scene}: {part} {error:.1e}")
+            expect(error < bound, f"{scene}: {part}")
+
+
+def rod():
+    for method in METHODS:
+        summary, _ = rows("beyond/rotating-rod.prm",
+                          [f"Boundaries/rod/Enforcement = {method}"])
+        results = summary["results"]
+        print(method, summary["counts"]["halved steps"], {
+            name: f"{result['error']:.1e}" for name, result in results.items()})
+        for name, result in results.items():
+            expect(result["error"] < 2e-2, f"{method}: {name}")
+
+
+{"friction": friction, "fall": fall, "rolling": rolling,
+ "rod": rod}[sys.argv[1]]()
