@@ -170,7 +170,7 @@ namespace Impoint
               }
           }
         else
-          empty_cells.add(k, system);
+          empty_cells.add(k, inertia != nullptr, system);
         scatter_residual(k);
         if (tangent_wanted)
           scatter(k, problem->matrix);

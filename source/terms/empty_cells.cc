@@ -68,8 +68,11 @@ namespace Impoint
 
 
   template <int dim>
-  void EmptyCells<dim>::add(const unsigned int k, CellSystem &system) const
+  void EmptyCells<dim>::add(const unsigned int k,
+                            const bool         moves_freely,
+                            CellSystem        &system) const
   {
+    constexpr double           ridge  = 1e-9;
     const std::vector<double> &matrix = matrices[k - active.n_material_cells()];
     const unsigned int         n      = system.n;
     for (unsigned int a = 0; a < n; ++a)
@@ -81,7 +84,9 @@ namespace Impoint
               system.residual[a * dim + i] +=
                 matrix[at] * system.u[b * dim + j];
               if (system.matrix)
-                system.matrix[at] += matrix[at];
+                system.matrix[at] +=
+                  matrix[at] *
+                  (moves_freely && a == b && i == j ? 1. + ridge : 1.);
             }
   }
 

@@ -63,8 +63,8 @@ void test(const std::string &cells, const std::string &settings)
        ++k)
     {
       LinearCell<dim> moved(scene, k, rotation, a), strained(scene, k, A, a);
-      empty.add(k, moved.system);
-      empty.add(k, strained.system);
+      empty.add(k, false, moved.system);
+      empty.add(k, false, strained.system);
       double energy = -0.5 * scene.points->young() * strain.norm_square() *
                       scene.grid.volume(scene.active.cell(k));
       for (unsigned int i = 0; i < moved.residual.size(); ++i)

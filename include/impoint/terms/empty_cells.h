@@ -25,8 +25,15 @@ namespace Impoint
     /** After the set of active cells changed. */
     void reinit();
 
-    /** @p k: an active cell beyond the material cells. */
-    void add(const unsigned int k, CellSystem &system) const;
+    /**
+     * @p k: an active cell beyond the material cells. One that @p moves_freely,
+     * as in dynamics where a contact may be open, can turn about a node that
+     * it shares with the material: a ridge, in the matrix only, makes that
+     * definite.
+     */
+    void add(const unsigned int k,
+             const bool         moves_freely,
+             CellSystem        &system) const;
 
   private:
     void integrate(const unsigned int c, std::vector<double> &matrix) const;
