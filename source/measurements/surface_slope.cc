@@ -13,21 +13,22 @@ namespace Impoint
   {
     namespace
     {
-      /** Angle [degrees] of the line that fits @p heights in the middle of
-       * strips of the same width, where they are not -max. */
-      double fitted_angle(const std::vector<double> &heights,
-                          const double               width)
+      constexpr double none = std::numeric_limits<double>::lowest();
+
+      /** Angle [degrees] of the line that fits best to @p places, but those
+       * without a height. */
+      double fitted_angle(const std::vector<double> &places,
+                          const std::vector<double> &heights)
       {
         double n = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0;
         for (unsigned int i = 0; i < heights.size(); ++i)
-          if (heights[i] > std::numeric_limits<double>::lowest())
+          if (heights[i] != none)
             {
-              // Welford's updates
-              const double x = i * width - mean_x, y = heights[i] - mean_y;
+              const double x = places[i] - mean_x, y = heights[i] - mean_y;
               n += 1;
               mean_x += x / n;
               mean_y += y / n;
-              xx += x * (i * width - mean_x);
+              xx += x * (places[i] - mean_x);
               xy += x * (heights[i] - mean_y);
             }
         return xx > 0 ? std::atan(xy / xx) * 180 / numbers::PI : 0.;
@@ -84,7 +85,7 @@ namespace Impoint
       const MPI_Comm comm   = grid.communicator();
       const auto    &points = state.points;
       double         lower  = std::numeric_limits<double>::max();
-      double         upper  = std::numeric_limits<double>::lowest();
+      double         upper  = none;
       for (unsigned int p = 0; p < points.n(); ++p)
         if (is_in_body(points, p, body))
           {
@@ -99,18 +100,27 @@ namespace Impoint
       const double half  = 0.5 * (upper - lower);
       const auto   n =
         std::max<unsigned int>(2, std::round(half / grid.smallest_size()));
-      const double        width = half / n;
-      std::vector<double> heights(n, std::numeric_limits<double>::lowest());
-      for (unsigned int p = 0; p < points.n(); ++p)
-        if (is_in_body(points, p, body))
-          {
-            const auto [x, y]  = place(points.position(p));
-            const double strip = (x - first) / width;
-            if (strip >= 0 && strip < n)
-              heights[unsigned(strip)] = std::max(heights[unsigned(strip)], y);
-          }
+      std::vector<double> heights(n, none), places(n, none);
+      const auto          for_points = [&](const auto &function) {
+        for (unsigned int p = 0; p < points.n(); ++p)
+          if (is_in_body(points, p, body))
+            {
+              const auto [x, y]  = place(points.position(p));
+              const double strip = (x - first) / half * n;
+              if (strip >= 0 && strip < n)
+                function(unsigned(strip), x, y);
+            }
+      };
+      for_points([&](const unsigned int strip, const double, const double y) {
+        heights[strip] = std::max(heights[strip], y);
+      });
       Utilities::MPI::max(heights, comm, heights);
-      this->set({fitted_angle(heights, width)}, state.time);
+      for_points([&](const unsigned int strip, const double x, const double y) {
+        if (y == heights[strip])
+          places[strip] = std::max(places[strip], x);
+      });
+      Utilities::MPI::max(places, comm, places);
+      this->set({fitted_angle(places, heights)}, state.time);
     }
   } // namespace Measurements
 } // namespace Impoint

@@ -311,6 +311,16 @@ namespace Impoint
 
 
 
+  /** Newton's iteration takes back what is left of a linear system. */
+  template <int dim>
+  double NonlinearSystem<dim>::correction_looser() const
+  {
+    constexpr double looser = 1e5;
+    return problem.symmetric || is_augmented() ? 1. : looser;
+  }
+
+
+
   template <int dim>
   void NonlinearSystem<dim>::correct(const bool    first,
                                      const Vector &u,
@@ -330,7 +340,7 @@ namespace Impoint
     right.update_ghost_values();
     cut(held, false, right);
     prepare_solver();
-    solver.solve(problem, right, delta);
+    solver.solve(problem, right, delta, correction_looser());
     delta.update_ghost_values();
     cut(held, first, delta);
 

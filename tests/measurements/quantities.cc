@@ -120,7 +120,6 @@ void expand()
                 << std::endl;
 }
 
-/** Strips along the columns of points: the slope is exact. */
 void shear()
 {
   Kinematics<2> scene(

@@ -135,6 +135,7 @@ namespace Impoint
     double force_scale_of_strain() const;
     void   prescribe(const bool first, Vector &delta);
     void   prepare_solver();
+    double correction_looser() const;
 
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;
