@@ -7,6 +7,7 @@
 #include <impoint/measurements/probe.h>
 #include <impoint/measurements/reaction.h>
 #include <impoint/measurements/run_out.h>
+#include <impoint/measurements/surface_slope.h>
 
 namespace Impoint
 {
@@ -90,6 +91,8 @@ namespace Impoint
           return std::make_unique<Penetration<dim>>(file, parameters);
         if (quantity == "run-out")
           return std::make_unique<RunOut<dim>>(file, parameters);
+        if (quantity == "slope")
+          return std::make_unique<SurfaceSlope<dim>>(file, parameters);
         if (quantity == "energy")
           return std::make_unique<Energy<dim>>(file, parameters);
         if (quantity == "newton")

@@ -1,5 +1,6 @@
 #include <impoint/base/parameter_file.h>
 #include <impoint/measurements/measurement_parameters.h>
+#include <impoint/measurements/named_values.h>
 
 #include <algorithm>
 #include <map>
@@ -30,6 +31,7 @@ namespace Impoint
       {"path", {"Body", "Direction", "Axis", "Reference"}},
       {"penetration", {"Boundary", "Body"}},
       {"run-out", {"Body", "Direction", "Reference"}},
+      {"slope", {"Body", "Direction", "Axis", "Reference"}},
       {"energy", {"Reference"}},
       {"newton", {}}};
 
@@ -80,7 +82,8 @@ namespace Impoint
       "[m] of the centre of mass along a direction and the body's angle [rad]; "
       "penetration: largest depth of points behind a boundary, in cell sizes; "
       "run-out: furthest coordinate [m] in a direction, of all and of 99 % of "
-      "the mass; energy: kinetic, strain, and their sum [J]; newton: "
+      "the mass; slope: of the surface along a direction [degrees], as where "
+      "sand rests; energy: kinetic, strain, and their sum [J]; newton: "
       "iterations and order of convergence.",
       Patterns::Selection(names_of_quantities()));
     declare_object(file);
@@ -113,11 +116,11 @@ namespace Impoint
                       numbers);
     prm.add_parameter("Direction",
                       direction,
-                      "Path, run-out: direction, of any length.",
+                      "Path, run-out, slope: direction, of any length.",
                       numbers);
     prm.add_parameter("Axis",
                       axis,
-                      "Path in 3D: axis of the angle; empty: z.",
+                      "Path, slope in 3D: axis of the angle; empty: z.",
                       numbers);
     prm.declare_entry(
       "Reference",
@@ -125,7 +128,7 @@ namespace Impoint
       Patterns::Anything(),
       "What the results should be, in their order (probe: u_x; u_y; u_z. "
       "reaction: F_x; F_y; F_z; M_x; M_y; M_z, in 2D F_x; F_y; M_z. impulse: I_x; I_y; I_z. path: "
-      "path; angle. run-out: furthest; 99 %. energy: kinetic; strain; total): "
+      "path; angle. run-out: furthest; 99 %. slope: the angle. energy: kinetic; strain; total): "
       "expressions of t separated by ';', in the results' units; 'none' or "
       "nothing: no reference.");
   }
@@ -288,6 +291,14 @@ namespace Impoint
     };
     check_length("Direction", direction);
     check_length("Axis", axis);
+    if (dim == 3 && quantity == "slope" &&
+        cross_product_3d(Measurements::to_vector<3>(direction),
+                         axis.empty() ? Tensor<1, 3>({0, 0, 1}) :
+                                        Measurements::to_vector<3>(axis))
+            .norm() == 0)
+      throw file.error(section + "/Axis",
+                       "the direction of a slope is along its axis",
+                       "Give the horizontal axis across the direction.");
   }
 
 

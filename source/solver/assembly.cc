@@ -177,7 +177,7 @@ namespace Impoint
           {
             empty_cells.add(k, system);
             if (tangent_wanted && inertia != nullptr && in_contact[k])
-              empty_cells.anchor(k, system);
+              empty_cells.anchor(system);
           }
         scatter_residual(k);
         if (tangent_wanted)

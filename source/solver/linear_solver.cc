@@ -2,6 +2,7 @@
 #include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/solver/band_preconditioner.h>
+#include <impoint/solver/block_ilu.h>
 #include <impoint/solver/direct_solver.h>
 #include <impoint/solver/linear_solver.h>
 #include <impoint/solver/lu_solver.h>
@@ -47,6 +48,10 @@ namespace Impoint
     /** After an old factor has failed, that many matrices are factorised at
      * once before one is tried again; doubled by every further failure. */
     constexpr unsigned int longest_distrust = 8;
+
+    /** What is not symmetric iterates that often before it is factorised: so
+     * many iterations cost a third of it. */
+    constexpr unsigned int most_unsymmetric_iterations = 30;
   } // namespace
 
   void LinearSolverParameters::declare(ParameterFile &file)
@@ -57,7 +62,10 @@ namespace Impoint
                       kind,
                       "A direct factorisation, conjugate gradients with the "
                       "band preconditioner, or the choice by dimension and "
-                      "number of unknowns.",
+                      "number of unknowns. Systems that are not symmetric "
+                      "(friction): unless direct, biconjugate gradients with "
+                      "incomplete factors, and a factorisation where these do "
+                      "not serve.",
                       Patterns::Selection("automatic|direct|iterative"));
     prm.add_parameter("Tolerance",
                       tolerance,
@@ -125,7 +133,18 @@ namespace Impoint
 
     void solve_unsymmetric(const LinearProblem<dim>  &problem,
                            const std::vector<double> &b,
+                           const double               tolerance,
                            std::vector<double>       &x);
+
+    /** Solves a matrix that is not symmetric without a factor, if that pays. */
+    bool try_incomplete(const LinearProblem<dim>  &problem,
+                        const std::vector<double> &b,
+                        const double               tolerance,
+                        std::vector<double>       &x);
+
+    /** Notes whether iterating served: if not, the next matrices are
+     * factorised at once. */
+    bool learn(const bool served);
 
     const LinearSolverParameters &parameters;
     Counters                     &counters;
@@ -133,6 +152,9 @@ namespace Impoint
     bool                    iterative = false, symmetric = true;
     DirectSolver<dim>       factor;
     LuSolver<dim>           lu;
+    bool                    lu_knows_pattern = false;
+    BlockIlu<dim>           incomplete;
+    bool                    incomplete_is_current = false;
     BandPreconditioner<dim> band;
 
     bool         exists  = false; // factor or band, for some matrix
@@ -214,7 +236,12 @@ namespace Impoint
     control.tolerance      = tolerance;
     control.max_iterations = most_iterations_of_old();
     control.give_up_early  = true;
-    const bool served      = iterate(problem, b, control, x).converged;
+    return learn(iterate(problem, b, control, x).converged);
+  }
+
+  template <int dim>
+  bool LinearSolver<dim>::Implementation::learn(const bool served)
+  {
     distrust   = served ? 0 : std::min(longest_distrust, 2 * distrust + 1);
     distrusted = distrust;
     return served;
@@ -235,14 +262,50 @@ namespace Impoint
   }
 
   template <int dim>
+  bool LinearSolver<dim>::Implementation::try_incomplete(
+    const LinearProblem<dim>  &problem,
+    const std::vector<double> &b,
+    const double               tolerance,
+    std::vector<double>       &x)
+  {
+    if (parameters.kind == "direct")
+      return false;
+    if (!incomplete_is_current)
+      {
+        if (distrusted > 0)
+          {
+            --distrusted;
+            return false;
+          }
+        if (!incomplete.factorize(problem.matrix))
+          return learn(false);
+        incomplete_is_current = true;
+      }
+    IterationControl control;
+    control.tolerance      = tolerance;
+    control.max_iterations = most_unsymmetric_iterations;
+    control.give_up_early  = true;
+    const auto result      = stabilised_biconjugate_gradients(
+      problem.matrix, incomplete, b, control, x);
+    counters.linear_iterations += result.iterations;
+    return learn(result.converged);
+  }
+
+  template <int dim>
   void LinearSolver<dim>::Implementation::solve_unsymmetric(
     const LinearProblem<dim>  &problem,
     const std::vector<double> &b,
+    const double               tolerance,
     std::vector<double>       &x)
   {
+    if (!current && try_incomplete(problem, b, tolerance, x))
+      return;
     if (!current)
       {
         ++counters.factorisations;
+        if (!lu_knows_pattern)
+          lu.new_pattern(problem.pattern);
+        lu_knows_pattern = true;
         if (!lu.factorize(problem.matrix))
           throw StepFailed("The linear system is singular: a body without "
                            "sufficient supports, or a material that has lost "
@@ -266,17 +329,16 @@ namespace Impoint
   {
     Implementation &data = *implementation;
     data.exists = data.current = data.proved = false;
+    data.lu_knows_pattern = data.incomplete_is_current = false;
     data.distrust = data.distrusted = 0;
     data.symmetric                  = problem.symmetric;
     data.iterative = problem.symmetric && iterative(problem.n_unknowns(),
                                                     !problem.lines.empty(),
                                                     problem.serves_long);
     Assert(data.iterative || problem.nodes.alone(), ExcInternalError());
-    if (!data.symmetric)
-      data.lu.new_pattern(problem.pattern);
-    else if (data.iterative)
+    if (data.iterative)
       data.band.new_pattern();
-    else
+    else if (data.symmetric)
       data.factor.new_pattern(problem.pattern);
   }
 
@@ -295,7 +357,7 @@ namespace Impoint
   void LinearSolver<dim>::new_matrix(const LinearProblem<dim> &problem)
   {
     Implementation &data = *implementation;
-    data.current = data.proved = false;
+    data.current = data.proved = data.incomplete_is_current = false;
     // a stiff enforcement outside of the old band would not be bounded
     if (data.iterative && !data.band.serves(problem))
       data.exists = false;
@@ -316,7 +378,7 @@ namespace Impoint
     Assert(b.size() == problem.pattern.n_rows() * dim,
            ExcDimensionMismatch(b.size(), problem.pattern.n_rows() * dim));
     if (!data.symmetric)
-      return data.solve_unsymmetric(problem, b, x);
+      return data.solve_unsymmetric(problem, b, tolerance, x);
     if (data.proved)
       {
         data.factor.vmult(b, x);
@@ -359,7 +421,9 @@ namespace Impoint
   {
     const Implementation &data = *implementation;
     if (!data.symmetric)
-      return "UMFPACK";
+      return data.parameters.kind == "direct" ?
+               "UMFPACK" :
+               "biconjugate gradients, UMFPACK";
     if (!data.iterative)
       return data.factor.supernodal() ? "CHOLMOD (supernodal)" :
                                         "CHOLMOD (simplicial)";

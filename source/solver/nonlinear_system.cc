@@ -333,7 +333,7 @@ namespace Impoint
   {
     try
       {
-        solver.solve(problem, right, delta);
+        solver.solve(problem, right, delta, correction_looser());
       }
     catch (const StepFailed &)
       {
@@ -343,8 +343,18 @@ namespace Impoint
         problem.symmetric = false;
         solver.new_pattern(active, problem);
         solver.new_matrix(problem);
-        solver.solve(problem, right, delta);
+        solver.solve(problem, right, delta, correction_looser());
       }
+  }
+
+
+
+  /** Newton's iteration takes back what is left of a linear system. */
+  template <int dim>
+  double NonlinearSystem<dim>::correction_looser() const
+  {
+    constexpr double looser = 1e5;
+    return problem.symmetric || is_augmented() ? 1. : looser;
   }
 
 

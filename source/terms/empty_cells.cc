@@ -2,6 +2,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <cmath>
+
 namespace Impoint
 {
   template <int dim>
@@ -119,16 +121,16 @@ namespace Impoint
 
 
   template <int dim>
-  void EmptyCells<dim>::anchor(const unsigned int k, CellSystem &system) const
+  void EmptyCells<dim>::anchor(CellSystem &system) const
   {
-    constexpr double   part   = 1e-6; // of the cell's own stiffness
-    const auto        &matrix = matrices[k - active.n_material_cells()];
-    const unsigned int n      = system.n;
+    constexpr double   part = 1e-6; // of the cell's own stiffness
+    const unsigned int n    = system.n;
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int i = 0; i < dim; ++i)
         {
-          const unsigned int at = (a * n + a) * dim * dim + i * dim + i;
-          system.matrix[at] += part * matrix[at];
+          double &entry =
+            system.matrix[(a * n + a) * dim * dim + i * dim + i];
+          entry += part * std::abs(entry);
         }
   }
 

@@ -120,6 +120,25 @@ void expand()
                 << std::endl;
 }
 
+void shear()
+{
+  Kinematics<2> scene(
+    square<2>("as made") + Entries{"Measurements/Names = up, right"} +
+    measure("up",
+            {"Quantity = slope",
+             "Direction = 1, 0",
+             "Reference = " +
+               std::to_string(std::atan(0.5) * 180 / numbers::PI)}) +
+    measure("right", {"Quantity = slope", "Direction = 0, -1"}));
+  Tensor<2, 2> A;
+  A[1][0]      = 0.5;
+  scene.stress = {{1, 1, 0}};
+  scene.step(A);
+  if (on_first_rank())
+    for (const auto &result : scene.results())
+      std::cout << "slope " << result.name << " " << result.value << std::endl;
+}
+
 int main(int argc, char **argv)
 {
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
@@ -128,4 +147,5 @@ int main(int argc, char **argv)
   rotate<3>("as made");
   rotate<3>("tetrahedra");
   expand();
+  shear();
 }

@@ -1,5 +1,6 @@
 """A column of sand collapses: no step is lost, no point passes floor or wall, mass
-stays, the heap comes to rest. Sand under prescribed stress stays at rest."""
+stays, the heap comes to rest. Sand under prescribed stress stays at rest. None
+leaves a drum that turns."""
 
 import csv
 from math import isclose
@@ -61,8 +62,22 @@ def prescribed_stress():
                "sand under prescribed stress")
 
 
+def drum():
+    summary = run_scene("penalty/4.4-rotating-drum.prm", "drum",
+                        ["Output/Pictures every = 0", "Time/End time = 0.8"])
+    expect(summary["counts"]["halved steps"] == 0, "drum: steps were lost")
+    rows = rows_of("drum")
+    depth = max(row["outside depth"] for row in rows)
+    late = [row["repose"] for row in rows if row["time"] > 0.6]
+    print(f"drum: {depth:.4f} h outside, slope {min(late):.1f} to "
+          f"{max(late):.1f} degrees")
+    expect(depth < 0.05, "sand leaves the drum")
+    expect(20 < min(late) and max(late) < 35, "the angle of repose")
+
+
 def main():
     prescribed_stress()
+    drum()
     compare_walls()
     come_to_rest()
 

@@ -78,8 +78,9 @@ namespace Impoint
    * Solves the linear problems of a run: by a direct factorisation or
    * conjugate gradients with the band preconditioner, chosen by size and
    * dimension, and keeps either while it serves. What is not symmetric is
-   * always factorised. Factorised is what one process has; on several, which
-   * then call everything together, problems must be iterative().
+   * iterated on with incomplete factors or factorised. Factorised is what one
+   * process has; on several, which then call everything together, problems must
+   * be iterative().
    */
   template <int dim>
   class LinearSolver

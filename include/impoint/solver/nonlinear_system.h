@@ -151,6 +151,7 @@ namespace Impoint
     void   prescribe(const bool first, Vector &delta);
     void   prepare_solver();
     void   solve(const Vector &right, Vector &delta);
+    double correction_looser() const;
 
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;

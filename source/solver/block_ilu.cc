@@ -1,0 +1,206 @@
+#include <impoint/solver/block_ilu.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Impoint
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** In place. Returns false for a singular block. */
+    template <int dim>
+    bool invert_block(double *a)
+    {
+      Tensor<2, dim> block;
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          block[i][j] = a[i * dim + j];
+      const double size = block.norm();
+      if (!(std::abs(determinant(block)) > 1e-14 * std::pow(size, dim)))
+        return false;
+      const Tensor<2, dim> inverse = invert(block);
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          a[i * dim + j] = inverse[i][j];
+      return true;
+    }
+
+
+
+    /** c = a b */
+    template <int dim>
+    void multiply(const double *a, const double *b, double *c)
+    {
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          {
+            c[i * dim + j] = 0;
+            for (int k = 0; k < dim; ++k)
+              c[i * dim + j] += a[i * dim + k] * b[k * dim + j];
+          }
+    }
+
+
+
+    double dot_product(const std::vector<double> &a,
+                       const std::vector<double> &b)
+    {
+      double sum = 0;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+      return sum;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  bool BlockIlu<dim>::factorize(const BlockMatrix<dim> &matrix)
+  {
+    constexpr int n_entries = dim * dim;
+    factors                 = matrix;
+    const auto &pattern     = *matrix.pattern;
+    diagonal                = diagonal_blocks(pattern);
+    const auto none         = std::numeric_limits<std::size_t>::max();
+
+    std::vector<std::size_t> place(pattern.n_rows(), none); // in this row
+    for (unsigned int row = 0; row < pattern.n_rows(); ++row)
+      {
+        const auto begin = pattern.row_start[row],
+                   end   = pattern.row_start[row + 1];
+        for (std::size_t k = begin; k < end; ++k)
+          place[pattern.columns[k]] = k;
+        for (std::size_t k = begin; k < diagonal[row]; ++k)
+          {
+            const unsigned int above = pattern.columns[k];
+            double            *lower = &factors.values[k * n_entries];
+            double             part[n_entries], product[n_entries];
+            std::copy_n(lower, n_entries, part);
+            multiply<dim>(part,
+                          &factors.values[diagonal[above] * n_entries],
+                          lower);
+            for (std::size_t q = diagonal[above] + 1;
+                 q < pattern.row_start[above + 1];
+                 ++q)
+              {
+                const std::size_t to = place[pattern.columns[q]];
+                if (to == none)
+                  continue;
+                multiply<dim>(lower, &factors.values[q * n_entries], product);
+                for (int e = 0; e < n_entries; ++e)
+                  factors.values[to * n_entries + e] -= product[e];
+              }
+          }
+        for (std::size_t k = begin; k < end; ++k)
+          place[pattern.columns[k]] = none;
+        if (!invert_block<dim>(&factors.values[diagonal[row] * n_entries]))
+          return false;
+      }
+    return true;
+  }
+
+
+
+  template <int dim>
+  void BlockIlu<dim>::vmult(const std::vector<double> &r,
+                            std::vector<double>       &z) const
+  {
+    const auto &pattern = *factors.pattern;
+    z.resize(r.size());
+    double sum[dim];
+    for (unsigned int row = 0; row < pattern.n_rows(); ++row)
+      {
+        row_vmult<dim>(
+          factors, pattern.row_start[row], diagonal[row], z.data(), sum);
+        for (int d = 0; d < dim; ++d)
+          z[row * dim + d] = r[row * dim + d] - sum[d];
+      }
+    for (unsigned int row = pattern.n_rows(); row-- > 0;)
+      {
+        double *x = &z[row * dim];
+        row_vmult<dim>(factors,
+                       diagonal[row] + 1,
+                       pattern.row_start[row + 1],
+                       z.data(),
+                       sum);
+        for (int d = 0; d < dim; ++d)
+          sum[d] = x[d] - sum[d];
+        std::fill(x, x + dim, 0.);
+        add_block_vmult<dim>(&factors.values[diagonal[row] * dim * dim],
+                             sum,
+                             1.,
+                             x);
+      }
+  }
+
+
+
+  // Preconditioned from the right: the residual is the true one.
+  template <int dim>
+  IterationResult
+  stabilised_biconjugate_gradients(const BlockMatrix<dim>    &matrix,
+                                   const Preconditioner      &preconditioner,
+                                   const std::vector<double> &b,
+                                   const IterationControl    &control,
+                                   std::vector<double>       &x)
+  {
+    constexpr unsigned int    probation = 10; // iterations for the first digit
+    IterationResult           result;
+    const std::size_t         n = b.size();
+    std::vector<double>       r = b, p(n, 0.), v(n, 0.), p_hat, r_hat, t(n);
+    const std::vector<double> shadow = b;
+    const double              size   = std::sqrt(dot_product(b, b));
+    x.assign(n, 0.);
+    result.converged = size == 0;
+    double rho = 1, alpha = 1, omega = 1;
+    while (!result.converged && result.iterations < control.max_iterations)
+      {
+        const double next = dot_product(shadow, r);
+        const double beta = next / rho * (alpha / omega);
+        rho               = next;
+        for (std::size_t i = 0; i < n; ++i)
+          p[i] = r[i] + beta * (p[i] - omega * v[i]);
+        preconditioner.vmult(p, p_hat);
+        matrix.vmult(p_hat.data(), v.data());
+        alpha = rho / dot_product(shadow, v);
+        for (std::size_t i = 0; i < n; ++i)
+          r[i] -= alpha * v[i];
+        preconditioner.vmult(r, r_hat);
+        matrix.vmult(r_hat.data(), t.data());
+        const double square = dot_product(t, t);
+        omega               = square > 0 ? dot_product(t, r) / square : 0.;
+        for (std::size_t i = 0; i < n; ++i)
+          {
+            x[i] += alpha * p_hat[i] + omega * r_hat[i];
+            r[i] -= omega * t[i];
+          }
+        ++result.iterations;
+        result.reduction = std::sqrt(dot_product(r, r)) / size;
+        result.converged = result.reduction <= control.tolerance;
+        if (!std::isfinite(result.reduction) ||
+            (omega == 0 && !result.converged) ||
+            (control.give_up_early && result.iterations == probation &&
+             result.reduction > 0.1))
+          break;
+      }
+    return result;
+  }
+
+#define IMPOINT_INSTANTIATE(dim)                                  \
+  template class BlockIlu<dim>;                                   \
+  template IterationResult stabilised_biconjugate_gradients<dim>( \
+    const BlockMatrix<dim> &,                                     \
+    const Preconditioner &,                                       \
+    const std::vector<double> &,                                  \
+    const IterationControl &,                                     \
+    std::vector<double> &);
+
+  IMPOINT_INSTANTIATE(2)
+  IMPOINT_INSTANTIATE(3)
+#undef IMPOINT_INSTANTIATE
+} // namespace Impoint
