@@ -97,6 +97,12 @@ namespace Impoint
                       "Force per mass, such as gravity: expressions of x, "
                       "y(, z), t, components separated by ';' [m/s2]; empty: "
                       "none.");
+    prm.add_parameter("Body force place",
+                      force_place,
+                      "What x, y(, z) of the body force are of a point: where "
+                      "it is at the start of the step, or where it was at the "
+                      "start of the run.",
+                      Patterns::Selection("now|start"));
     prm.declare_entry(
       "Initial stress",
       "",

@@ -14,9 +14,11 @@ namespace Impoint
 {
   template <int dim>
   PointCloud<dim>::PointCloud(const Basis<dim>     &basis,
-                              const PropertyLayout &layout)
+                              const PropertyLayout &layout,
+                              const unsigned int    anchor)
     : basis(basis)
     , property_layout(layout)
+    , anchor(anchor)
     , pool(std::make_unique<Pool>(property_layout.n_doubles()))
   {}
 
@@ -74,7 +76,7 @@ namespace Impoint
         Assert(basis.grid().is_owned(particle.cell), ExcInternalError());
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
-          x[d] = particle.properties[d];
+          x[d] = particle.properties[anchor + d];
         const auto handle = pool->register_particle();
         pool->set_id(handle, particle.id);
         std::copy(particle.properties.begin(),
@@ -176,6 +178,7 @@ namespace Impoint
   template <int dim>
   void PointCloud<dim>::evaluate_supports()
   {
+    ++evaluations;
     first_support.resize(n());
     std::size_t size = 0;
     for (const Range &range : cell_ranges)
@@ -198,6 +201,8 @@ namespace Impoint
   template <int dim>
   void PointCloud<dim>::find(const std::vector<Point<dim>> &new_places)
   {
+    if (anchor != 0)
+      return;
     const BackgroundGrid<dim> &grid = basis.grid();
     std::vector<unsigned int>  strays;
     moves.clear();
@@ -278,6 +283,8 @@ namespace Impoint
   template <int dim>
   bool PointCloud<dim>::move()
   {
+    if (anchor != 0)
+      return false;
     const MPI_Comm comm = basis.grid().communicator();
     const bool     changed =
       Utilities::MPI::max(static_cast<unsigned int>(moves.size()), comm) > 0;

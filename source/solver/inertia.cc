@@ -1,6 +1,7 @@
 #include <impoint/base/parameter_file.h>
 #include <impoint/grid/support_size.h>
 #include <impoint/solver/inertia.h>
+#include <impoint/solver/nodal_mass.h>
 
 #include <algorithm>
 #include <cmath>
@@ -212,10 +213,49 @@ namespace Impoint
     for (Vector *vector : {&masses, &velocities, &accelerations})
       vector->compress(VectorOperation::add);
     masses.update_ghost_values();
-    divide_by_mass(velocities);
-    divide_by_mass(accelerations);
+    // A grid that is reset every step has its points for a memory, and lumped
+    // masses keep what they remember positive; a kept one starts from these.
+    if (points.carried().keeps_grid && is_consistent)
+      for (Vector *vector : {&velocities, &accelerations})
+        divide_by_consistent_mass(active, points, *vector);
+    else
+      for (Vector *vector : {&velocities, &accelerations})
+        divide_by_mass(*vector);
     if (filter > 0)
       find_seen_velocities(active, points);
+  }
+
+
+
+  template <int dim>
+  bool Inertia<dim>::begin_step(const ActiveNodes<dim>    &active,
+                                const MaterialPoints<dim> &points,
+                                const double               time_step)
+  {
+    dt = time_step;
+    if (has_carried)
+      return false;
+    project(active, points, time_step);
+    return true;
+  }
+
+
+
+  template <int dim>
+  void Inertia<dim>::end_step(const Vector &u)
+  {
+    const unsigned int n =
+      u.locally_owned_size() + u.get_partitioner()->n_ghost_indices();
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const double a_new = acceleration(i, u.local_element(i));
+        velocities.local_element(i) =
+          new_velocity(velocities.local_element(i),
+                       accelerations.local_element(i),
+                       a_new);
+        accelerations.local_element(i) = a_new;
+      }
+    has_carried = true;
   }
 
 

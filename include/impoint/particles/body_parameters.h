@@ -41,6 +41,8 @@ namespace Impoint
     double density   = 0; // [kg/m3]
     double thickness = 1; // 2D [m]
 
+    std::string force_place = "now"; // now|start: x, y(, z) of the body force
+
   private:
     void declare_shape(EntryHandler &prm);
     void check_signed_distance(const ParameterFile &file) const;

@@ -6,6 +6,8 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <array>
+
 namespace Impoint
 {
   class ParameterFile;
@@ -49,6 +51,28 @@ namespace Impoint
     void project(const ActiveNodes<dim>    &active,
                  const MaterialPoints<dim> &points,
                  const double               time_step);
+
+    /** Projects before the first step of a kept grid only: later ones find
+     * velocity and acceleration on the nodes. Returns whether it did.
+     * Collective. */
+    bool begin_step(const ActiveNodes<dim>    &active,
+                    const MaterialPoints<dim> &points,
+                    const double               time_step);
+
+    /** Velocity and acceleration of the nodes after a step with displacements
+     * @p u; of a kept grid. */
+    void end_step(const Vector &u);
+
+    /** What the nodes of a kept grid carry from step to step. */
+    std::array<Vector *, 2> carried()
+    {
+      return {{&velocities, &accelerations}};
+    }
+    /** Takes what carried() holds now in place of projected values. */
+    void set_carried()
+    {
+      has_carried = true;
+    }
 
     bool consistent() const
     {
@@ -113,7 +137,8 @@ namespace Impoint
 
     double beta, gamma, bossak, filter;
     bool   is_consistent;
-    double dt = 1;
+    bool   has_carried = false; // from the last step of a kept grid
+    double dt          = 1;
     Vector masses, velocities, accelerations, seen_velocities;
   };
 } // namespace Impoint
