@@ -227,12 +227,10 @@ namespace Impoint
     bool changed = false;
     {
       ScopedSeconds timer(seconds.pattern);
-      changed = active.reinit(points->cells(),
-                              // a kept grid keeps its nodes, whatever acts
-                              scene.grid.is_kept() ?
-                                Enforcement::cells(methods) :
-                                Enforcement::cells(methods, start, end),
-                              [&]() { return system->find_links(start, end); });
+      changed = active.reinit(
+        points->cells(),
+        Enforcement::cells(methods, start, end, scene.grid.is_kept()),
+        [&]() { return system->find_links(start, end); });
     }
     // Whether a run went on or was resumed after a checkpoint must not show in
     // its last digits: both begin with a new factor.
@@ -285,10 +283,7 @@ namespace Impoint
         system->initial_acceleration(accelerations);
         set_accelerations(active, accelerations, *points);
         if (scene.grid.is_kept())
-          {
-            *inertia.carried()[1] = accelerations;
-            inertia.set_carried();
-          }
+          inertia.carry(accelerations);
       }
     begin_step(dt, time + dt);
     warn_of_lost_loads();
@@ -307,13 +302,12 @@ namespace Impoint
   void Simulation<dim>::find_new_places()
   {
     ScopedSeconds timer(seconds.locate);
+    counters.searches += !scene.grid.is_kept();
     if (!scene.grid.is_kept())
       {
-        ++counters.searches;
         new_places(*points, active, u, places);
         points->find(places);
       }
-
     std::vector<double> cell_u;
     for (unsigned int m = 0; m < methods.size(); ++m)
       {
@@ -363,10 +357,10 @@ namespace Impoint
         inertia.end_step(u);
     }
     {
-      ScopedSeconds     timer(seconds.locate);
-      const std::size_t evaluations = points->n_evaluations();
-      points_changed_cells          = points->move();
-      counters.shape_values += points->n_evaluations() - evaluations;
+      ScopedSeconds timer(seconds.locate);
+      counters.shape_values -= points->n_evaluations();
+      points_changed_cells = points->move();
+      counters.shape_values += points->n_evaluations();
       counters.sorts += points_changed_cells;
       for (unsigned int m = 0; m < methods.size(); ++m)
         if (methods[m]->moves())

@@ -36,6 +36,33 @@ namespace Impoint
       "traction of the material itself, which the particles carry.",
       Patterns::Selection("penalty|projected penalty|augmented Lagrangian|"
                           "lagrange multiplier|implicit boundary|nitsche"));
+    declare_factors(prm);
+    prm.add_parameter(
+      "Normals",
+      normals,
+      "Normals of a slip condition: each particle's own, or "
+      "averaged at the nodes (P Eq. 54); automatic: nodal where "
+      "the particles' normals differ, else particle.",
+      Patterns::Selection("automatic|particle|nodal"));
+    prm.add_parameter("Releasing",
+                      releasing,
+                      "The boundary presses but does not pull: contact with a "
+                      "wall (P Eq. 55). A fixed one sticks while it presses.",
+                      Patterns::Bool());
+    prm.add_parameter("Friction coefficient",
+                      friction,
+                      "Coulomb friction of a slip boundary [-].",
+                      Patterns::Double(0.));
+    declare_motion(prm);
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+
+
+  /** What the methods look at, each on its own. */
+  void ConditionParameters::declare_factors(EntryHandler &prm)
+  {
     prm.add_parameter("Penalty factor",
                       factor,
                       "Penalty factor beta, in the unit below.",
@@ -78,25 +105,6 @@ namespace Impoint
       "53). It breaks linear reproduction: only to reproduce the "
       "paper.",
       Patterns::Bool());
-    prm.add_parameter(
-      "Normals",
-      normals,
-      "Normals of a slip condition: each particle's own, or "
-      "averaged at the nodes (P Eq. 54); automatic: nodal where "
-      "the particles' normals differ, else particle.",
-      Patterns::Selection("automatic|particle|nodal"));
-    prm.add_parameter("Releasing",
-                      releasing,
-                      "The boundary presses but does not pull: contact with a "
-                      "wall (P Eq. 55). A fixed one sticks while it presses.",
-                      Patterns::Bool());
-    prm.add_parameter("Friction coefficient",
-                      friction,
-                      "Coulomb friction of a slip boundary [-].",
-                      Patterns::Double(0.));
-    declare_motion(prm);
-    prm.leave_subsection();
-    prm.leave_subsection();
   }
 
 

@@ -203,41 +203,20 @@ namespace Impoint
 
 
 
-    namespace
-    {
-      /** Cells of the particles of the methods that @p chosen selects. */
-      template <int dim, typename Choice>
-      std::vector<unsigned int> cells_of(const Methods<dim> &methods,
-                                         const Choice       &chosen)
-      {
-        std::vector<unsigned int> result;
-        for (const auto &method : methods)
-          if (chosen(*method))
-            for (const auto &range : method->particles().ranges())
-              result.push_back(range.cell);
-        std::sort(result.begin(), result.end());
-        result.erase(std::unique(result.begin(), result.end()), result.end());
-        return result;
-      }
-    } // namespace
-
-
-
     template <int dim>
-    std::vector<unsigned int>
-    cells(const Methods<dim> &methods, const double start, const double end)
+    std::vector<unsigned int> cells(const Methods<dim> &methods,
+                                    const double        start,
+                                    const double        end,
+                                    const bool          all)
     {
-      return cells_of<dim>(methods, [&](const auto &method) {
-        return method.parameters().is_active(start, end);
-      });
-    }
-
-
-
-    template <int dim>
-    std::vector<unsigned int> cells(const Methods<dim> &methods)
-    {
-      return cells_of<dim>(methods, [](const auto &) { return true; });
+      std::vector<unsigned int> result;
+      for (const auto &method : methods)
+        if (all || method->parameters().is_active(start, end))
+          for (const auto &range : method->particles().ranges())
+            result.push_back(range.cell);
+      std::sort(result.begin(), result.end());
+      result.erase(std::unique(result.begin(), result.end()), result.end());
+      return result;
     }
 
 
@@ -281,11 +260,9 @@ namespace Impoint
     template class Method<2>;
     template class Method<3>;
     template std::vector<unsigned int>
-    cells(const Methods<2> &, const double, const double);
+    cells(const Methods<2> &, const double, const double, const bool);
     template std::vector<unsigned int>
-    cells(const Methods<3> &, const double, const double);
-    template std::vector<unsigned int> cells(const Methods<2> &);
-    template std::vector<unsigned int> cells(const Methods<3> &);
+    cells(const Methods<3> &, const double, const double, const bool);
     template std::unique_ptr<Method<2>>
     create(const ParameterFile &,
            const ConditionParameters &,

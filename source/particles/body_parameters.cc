@@ -80,6 +80,17 @@ namespace Impoint
                       thickness,
                       "2D: across the plane [m].",
                       Patterns::Double(std::numeric_limits<double>::min()));
+    declare_state(prm);
+    prm.leave_subsection();
+    prm.leave_subsection();
+    mesh.declare(file, section + "/Mesh", "", "");
+  }
+
+
+
+  /** How the body begins, and its load. */
+  void BodyParameters::declare_state(EntryHandler &prm)
+  {
     prm.declare_entry("Initial velocity",
                       "",
                       Patterns::Anything(),
@@ -110,9 +121,6 @@ namespace Impoint
       "Expressions of x, y(, z), tension positive: in 2D xx; yy; xy or xx; yy; "
       "xy; zz (zz is 0 if left out), in 3D xx; yy; zz; xy; xz; yz [Pa]; empty: "
       "none. Plastic models begin with its elastic strain.");
-    prm.leave_subsection();
-    prm.leave_subsection();
-    mesh.declare(file, section + "/Mesh", "", "");
   }
 
 

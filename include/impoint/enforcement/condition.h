@@ -59,6 +59,7 @@ namespace Impoint
     double              until = std::numeric_limits<double>::max();
 
   private:
+    void declare_factors(EntryHandler &prm);
     void declare_motion(EntryHandler &prm);
     void check_unused(const ParameterFile &file, const bool conforming) const;
   };

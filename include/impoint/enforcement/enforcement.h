@@ -216,15 +216,12 @@ namespace Impoint
     }
 
     /** This rank's cells with particles of the methods that act from @p start
-     * to
-     * @p end, increasing. */
+     * to @p end, or of @p all, increasing. */
     template <int dim>
-    std::vector<unsigned int>
-    cells(const Methods<dim> &methods, const double start, const double end);
-
-    /** The same of all methods, whenever they act. */
-    template <int dim>
-    std::vector<unsigned int> cells(const Methods<dim> &methods);
+    std::vector<unsigned int> cells(const Methods<dim> &methods,
+                                    const double        start,
+                                    const double        end,
+                                    const bool          all = false);
 
     /** The method named by @p parameters. Throws InputError. */
     template <int dim>

@@ -46,6 +46,7 @@ namespace Impoint
   private:
     void declare_shape(EntryHandler &prm);
     void check_signed_distance(const ParameterFile &file) const;
+    void declare_state(EntryHandler &prm);
     void check_outline(const ParameterFile &file, const unsigned int dim) const;
     void check_points(const ParameterFile &file, const unsigned int dim) const;
   };

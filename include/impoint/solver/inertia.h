@@ -74,6 +74,13 @@ namespace Impoint
       has_carried = true;
     }
 
+    /** The same with @p new_accelerations. */
+    void carry(const Vector &new_accelerations)
+    {
+      accelerations = new_accelerations;
+      has_carried   = true;
+    }
+
     bool consistent() const
     {
       return is_consistent;
