@@ -6,18 +6,6 @@ namespace Impoint
 {
   namespace Enforcement
   {
-    namespace
-    {
-      // What the V-cycle of the preconditioner bears, in units of n.C.n/h.
-      constexpr double moderate_factor = 10.;
-
-      // In cell sizes: no sliver of material is taken for thinner.
-      constexpr double smallest_width = 1e-13;
-
-    } // namespace
-
-
-
     template <int dim>
     Nitsche<dim>::Nitsche(const ConditionParameters              &parameters,
                           PrescribedMotion<dim>                   motion,
@@ -47,24 +35,20 @@ namespace Impoint
         normals.reinit(this->condition.normals, *this, *step.active);
       const auto &points = *step.points;
       widths.assign(this->boundary->ranges().size(), 0.);
-      for_active_ranges(
-        *this, *step.active, [&](const unsigned int r, const unsigned int k) {
-          const auto  &range = this->boundary->ranges()[r];
-          const double h     = step.active->basis().grid().size(range.cell);
-          double       area = 0, volume = 0;
-          for (unsigned int b = range.begin; b < range.end; ++b)
-            area += this->boundary->area(b);
-          if (k < step.active->n_material_cells())
-            for (unsigned int p = points.ranges()[k].begin;
-                 p < points.ranges()[k].end;
-                 ++p)
-              volume += points.data(p)[points.slots().volume];
-          // what has no material has no sliver of it
-          widths[r] =
-            volume > 0 ?
-              std::min(h, std::max(smallest_width * h, volume / area)) :
-              h;
-        });
+      for_active_ranges(*this,
+                        *step.active,
+                        [&](const unsigned int r, const unsigned int k) {
+                          const auto &range = this->boundary->ranges()[r];
+                          double      area = 0, volume = 0;
+                          for (unsigned int b = range.begin; b < range.end; ++b)
+                            area += this->boundary->area(b);
+                          if (k < step.active->n_material_cells())
+                            for (unsigned int p = points.ranges()[k].begin;
+                                 p < points.ranges()[k].end;
+                                 ++p)
+                              volume += points.data(p)[points.slots().volume];
+                          widths[r] = volume / area;
+                        });
     }
 
 
@@ -146,15 +130,11 @@ namespace Impoint
               continue;
             }
           evaluate_gap(r, b, system.n, system.u, condition);
-          const double h =
-            this->current.active->basis().grid().size(range.cell);
-          const double part =
-            std::min(1., moderate_factor / factor() * widths[r] / h);
           for (unsigned int a = 0; a < system.n; ++a)
             for (unsigned int c = 0; c < system.n; ++c)
               {
                 const Tensor<2, dim> block =
-                  part * area * transpose(condition.share[a]) *
+                  condition.moderate * area * transpose(condition.share[a]) *
                   condition.stiffness * condition.share[c];
                 double *to = system.matrix + (a * system.n + c) * dim * dim;
                 for (unsigned int i = 0; i < dim; ++i)

@@ -8,6 +8,17 @@ namespace Impoint
 {
   namespace Enforcement
   {
+    namespace
+    {
+      // What the V-cycle of the preconditioner bears, in units of n.C.n/h.
+      constexpr double moderate_factor = 10.;
+
+      // In cell sizes: no sliver of material is taken for thinner.
+      constexpr double smallest_width = 1e-13;
+    } // namespace
+
+
+
     /** Of n.C.n/h. That of a trace inequality grows with the square of the
      * degree. */
     template <int dim>
@@ -131,14 +142,27 @@ namespace Impoint
             u_a[d] = u[a * dim + d];
           condition.gap += condition.share[a] * u_a;
         }
-      const auto &body =
-        this->current.points->material_of_body(material(b).body);
+      const auto          &points = *this->current.points;
+      const auto          &body   = points.material_of_body(material(b).body);
+      const double         h      = active.basis().grid().size(cell);
+      const Tensor<1, dim> stretched =
+        body.small_strain() ? normal :
+                              this->boundary->vector(b, slots.start_normal) *
+                                invert(deformation_gradient(b));
+      // a cell of today, by the places at the start
+      const double whole =
+        this->boundary->carried().keeps_grid ? h : h * stretched.norm();
+      const double width =
+        widths[r] > 0 ?
+          std::min(whole, std::max(smallest_width * whole, widths[r])) :
+          whole;
       condition.stiffness =
-        factor() / widths[r] * held *
-        acoustic_tensor<dim>(normal, body.elastic_tangent(), normal) * held;
+        factor() / width * held *
+        acoustic_tensor(stretched, body.elastic_tangent(), stretched) * held;
+      condition.moderate =
+        std::min(1., moderate_factor / factor() * width / whole);
       // F^ differs from F by a tenth at most where the wall moves first
-      condition.length =
-        10. * std::max(active.basis().grid().size(cell), increment.norm());
+      condition.length = 10. * std::max(h, increment.norm());
     }
 
 

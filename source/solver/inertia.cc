@@ -57,6 +57,14 @@ namespace Impoint
                       mass,
                       "Mass matrix of the nodes.",
                       Patterns::Selection("lumped|consistent"));
+    prm.add_parameter(
+      "Projection",
+      projection,
+      "Velocities of the nodes at the start of a step; of the run where the "
+      "grid is never reset. lumped: means of what the points have, with "
+      "positive weights (P Eqs. 18-19), which smooth it; consistent: the least "
+      "squares' fit.",
+      Patterns::Selection("lumped|consistent"));
     prm.add_parameter("Initial acceleration",
                       initial,
                       "equilibrium: M a = f at the start; zero; expression: "
@@ -81,6 +89,7 @@ namespace Impoint
                                       "Spectral radius",
                                       "Velocity filter",
                                       "Mass",
+                                      "Projection",
                                       "Initial acceleration"})
         if (file.is_set("Time/" + entry))
           throw file.error("Time/" + entry,
@@ -113,6 +122,7 @@ namespace Impoint
              (parameters.spectral_radius + 1))
     , filter(parameters.filter)
     , is_consistent(parameters.mass == "consistent")
+    , projects_consistently(parameters.projection == "consistent")
   {
     if (bossak < 0)
       {
@@ -213,9 +223,7 @@ namespace Impoint
     for (Vector *vector : {&masses, &velocities, &accelerations})
       vector->compress(VectorOperation::add);
     masses.update_ghost_values();
-    // A grid that is reset every step has its points for a memory, and lumped
-    // masses keep what they remember positive; a kept one starts from these.
-    if (points.carried().keeps_grid && is_consistent)
+    if (projects_consistently)
       for (Vector *vector : {&velocities, &accelerations})
         divide_by_consistent_mass(active, points, *vector);
     else

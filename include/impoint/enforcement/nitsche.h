@@ -25,7 +25,8 @@ namespace Impoint
      *
      * h is at most the width of the material in the cut cell (its volume there
      * over the area): the functions that see a sliver of it alone would make
-     * the matrix indefinite.
+     * the matrix indefinite. Both h and n are those of the start of the run, n
+     * with the length that F at the start of the step gives it in space.
      */
     template <int dim>
     class Nitsche : public Method<dim>
@@ -66,6 +67,7 @@ namespace Impoint
         double                      length;    // l [m]
         Tensor<1, dim>              gap;       // held part, in space
         Tensor<2, dim>              stiffness; // G [Pa/m]
+        double                      moderate;  // part of it for a V-cycle
         Tensor<1, dim>              normal;    // of the start, to the end by F^
         std::vector<Tensor<2, dim>> share; // held part of a node's displacement
         Side                        as_is, closed; // with F, and with F^
@@ -104,7 +106,7 @@ namespace Impoint
       const bool          slip;
       const double        sign; // of the adjoint terms
       NodalNormals<dim>   normals;
-      std::vector<double> widths; // h per range
+      std::vector<double> widths; // of the material, per range; 0: none
     };
   } // namespace Enforcement
 } // namespace Impoint

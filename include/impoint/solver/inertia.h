@@ -27,6 +27,7 @@ namespace Impoint
     double      spectral_radius = 1; // of the highest frequencies, a step
     double      filter          = 0; // of unseen velocities [s]; 0: none
     std::string mass            = "lumped";      // lumped|consistent
+    std::string projection      = "lumped";      // lumped|consistent
     std::string initial         = "equilibrium"; // equilibrium|zero|expression
     bool        is_dynamic() const
     {
@@ -143,7 +144,7 @@ namespace Impoint
     void divide_by_mass(Vector &momenta) const;
 
     double beta, gamma, bossak, filter;
-    bool   is_consistent;
+    bool   is_consistent, projects_consistently;
     bool   has_carried = false; // from the last step of a kept grid
     double dt          = 1;
     Vector masses, velocities, accelerations, seen_velocities;
