@@ -287,7 +287,6 @@ namespace Impoint
       }
     begin_step(dt, time + dt);
     warn_of_lost_loads();
-
     u.reinit(active.unknowns());
     u.update_ghost_values();
     newton->solve(u);
@@ -302,12 +301,9 @@ namespace Impoint
   void Simulation<dim>::find_new_places()
   {
     ScopedSeconds timer(seconds.locate);
-    counters.searches += !scene.grid.is_kept();
     if (!scene.grid.is_kept())
-      {
-        new_places(*points, active, u, places);
-        points->find(places);
-      }
+      new_places(*points, active, u, places);
+    counters.searches += points->find(places);
     std::vector<double> cell_u;
     for (unsigned int m = 0; m < methods.size(); ++m)
       {

@@ -199,10 +199,10 @@ namespace Impoint
 
 
   template <int dim>
-  void PointCloud<dim>::find(const std::vector<Point<dim>> &new_places)
+  bool PointCloud<dim>::find(const std::vector<Point<dim>> &new_places)
   {
     if (anchor != 0)
-      return;
+      return false;
     const BackgroundGrid<dim> &grid = basis.grid();
     std::vector<unsigned int>  strays;
     moves.clear();
@@ -227,6 +227,7 @@ namespace Impoint
     if (Utilities::MPI::max(static_cast<unsigned int>(strays.size()),
                             grid.communicator()) > 0)
       find_strays(new_places, strays);
+    return true;
   }
 
 

@@ -108,9 +108,9 @@ namespace Impoint
      * Finds the cells of @p new_places, one for each particle, and remembers
      * them for move(). Throws StepFailed on every rank, with nothing changed,
      * if one of them lies outside of the grid. Nothing to do for particles
-     * with an anchor. Collective.
+     * with an anchor: returns false. Collective.
      */
-    void find(const std::vector<Point<dim>> &new_places);
+    bool find(const std::vector<Point<dim>> &new_places);
 
     /**
      * After the particles' places were set to what find() was asked for: puts
