@@ -33,6 +33,37 @@ namespace Impoint
 
 
 
+  namespace
+  {
+    /** Forces of the particles in range @p r, and their moments where the
+     * material is. */
+    template <int dim>
+    void add_forces(const Enforcement::Method<dim>   &method,
+                    const unsigned int                r,
+                    const std::vector<double>        &cell_u,
+                    Measurements::BoundaryForce<dim> &sum)
+    {
+      const auto &particles = method.particles();
+      const auto &slots     = particles.slots();
+      const auto &range     = particles.ranges()[r];
+      for (unsigned int b = range.begin; b < range.end; ++b)
+        {
+          const Tensor<1, dim> force = particles.vector(b, slots.force);
+          sum.force += force;
+          sum.moment += Measurements::moment<dim>(
+            method.material_place(b, cell_u.size() / dim, cell_u.data()),
+            force);
+          if (!particles.carried().material)
+            continue;
+          const double *couple = particles.data(b) + slots.couple;
+          for (unsigned int d = 0; d < (dim == 2 ? 1 : 3); ++d)
+            sum.moment[dim == 2 ? 2 : d] += couple[d];
+        }
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<Measurements::BoundaryForce<dim>>
   nonconforming_forces(const NonlinearSystem<dim>                  &system,
@@ -55,24 +86,20 @@ namespace Impoint
           {
             const auto        &range = particles.ranges()[r];
             const unsigned int k     = active.position(range.cell);
-            if (k == BackgroundGrid<dim>::nowhere || !methods[m]->is_active())
+            if (k == BackgroundGrid<dim>::nowhere)
               {
                 methods[m]->end_step(r, nullptr);
                 continue;
               }
             system.gather(k, u, cell_u);
-            methods[m]->end_step(r, cell_u.data());
-            for (unsigned int b = range.begin; b < range.end; ++b)
+            if (methods[m]->is_active())
               {
-                Point<dim> x = particles.position(b);
-                for (unsigned int i = 0; i < cell_u.size(); ++i)
-                  x[i % dim] += particles.support(b)[i / dim] * cell_u[i];
-                const Tensor<1, dim> force =
-                  particles.vector(b, particles.slots().force);
-                nonconforming[m].force += force;
-                nonconforming[m].moment +=
-                  Measurements::moment<dim>(Tensor<1, dim>(x), force);
+                methods[m]->end_step(r, cell_u.data());
+                add_forces(*methods[m], r, cell_u, nonconforming[m]);
               }
+            else
+              methods[m]->end_step(r, nullptr);
+            methods[m]->follow_material(r, cell_u.data());
           }
       }
     return nonconforming;

@@ -161,6 +161,7 @@ namespace Impoint
         check_effect(file, conditions[i]);
       }
     time.check(file);
+    check_reset(file);
     if (time.is_dynamic() && grid.basis == "quadratic")
       throw file.error("Grid/Basis",
                        "a dynamic scene with a 'quadratic' basis: its lumped "
@@ -171,6 +172,34 @@ namespace Impoint
     for (const auto &measurement : measurements)
       measurement.check(file, dim);
     check_support(file);
+  }
+
+
+
+  /** Refuses what needs places where a kept grid has none. */
+  template <int dim>
+  void Scene<dim>::check_reset(const ParameterFile &file) const
+  {
+    if (!grid.is_kept())
+      return;
+    const auto refuse = [&](const std::string &path, const std::string &wrong) {
+      throw file.error(path,
+                       wrong + ", and the grid is never reset",
+                       "Take the entry away, or set 'Reset = every step' in "
+                       "section 'Grid'.");
+    };
+    for (const auto &condition : conditions)
+      {
+        if (condition.releasing)
+          refuse(condition.section + "/Releasing",
+                 "boundary '" + condition.name +
+                   "' may touch the material anywhere");
+        if (condition.friction > 0)
+          refuse(condition.section + "/Friction coefficient",
+                 "the material slides along boundary '" + condition.name + "'");
+      }
+    if (time.filter > 0)
+      refuse("Time/Velocity filter", "the grid sees all velocities");
   }
 
 

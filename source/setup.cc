@@ -4,6 +4,7 @@
 #include <impoint/setup.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace Impoint
 {
@@ -53,6 +54,20 @@ namespace Impoint
 
 
 
+    template <int dim>
+    void put_stress(const Materials::Response<dim> &stress,
+                    const unsigned int              slot,
+                    double                         *state)
+    {
+      if (slot == PropertyLayout::absent)
+        return;
+      std::copy(stress.stress.begin(), stress.stress.end(), state + slot);
+      if (dim == 2)
+        state[slot + Voigt<dim>::n] = stress.stress_zz;
+    }
+
+
+
     /** What a point of body @p b carries when the run begins. */
     template <int dim>
     std::vector<double> initial_state(const Scene<dim>          &scene,
@@ -71,21 +86,16 @@ namespace Impoint
           state[slot + d] = value[d];
       };
       put(slots.x, seed.x);
+      if (carried.keeps_grid)
+        put(slots.start, seed.x);
       for (unsigned int d = 0; d < dim; ++d)
         state[slots.F + d * dim + d] = 1.;
       state[slots.volume] = seed.volume * (dim == 2 ? body.thickness : 1.);
       state[slots.mass]   = state[slots.volume] * body.density;
       state[slots.body]   = b;
       const auto stress   = initial.stress_at(seed.x);
-      for (const unsigned int slot : {slots.stress, slots.initial_stress})
-        if (slot != PropertyLayout::absent)
-          {
-            std::copy(stress.stress.begin(),
-                      stress.stress.end(),
-                      state.begin() + slot);
-            if (dim == 2)
-              state[slot + Voigt<dim>::n] = stress.stress_zz;
-          }
+      put_stress(stress, slots.stress, state.data());
+      put_stress(stress, slots.initial_stress, state.data());
       if (carried.dynamic)
         {
           put(slots.v, initial.velocity.vector(seed.x, 0.));
@@ -96,6 +106,80 @@ namespace Impoint
         points.material_of_body(b).initialise(stress,
                                               state.data() + slots.history);
       return state;
+    }
+
+
+
+    /** Numbers of the bodies that have the material points nearest to this
+     * rank's @p places: the lowest of several. Collective. */
+    template <int dim>
+    std::vector<unsigned int>
+    nearest_bodies(const MaterialPoints<dim>     &points,
+                   const std::vector<Point<dim>> &places,
+                   const MPI_Comm                 communicator)
+    {
+      using Nearest    = std::pair<double, unsigned int>; // squared distance
+      const auto asked = Utilities::MPI::all_gather(communicator, places);
+      std::vector<std::vector<Nearest>> answers(asked.size());
+      for (unsigned int rank = 0; rank < asked.size(); ++rank)
+        for (const Point<dim> &x : asked[rank])
+          {
+            Nearest nearest(std::numeric_limits<double>::max(), 0);
+            for (unsigned int p = 0; p < points.n(); ++p)
+              nearest = std::min(nearest,
+                                 Nearest((points.position(p) - x).norm_square(),
+                                         points.body(p)));
+            answers[rank].push_back(nearest);
+          }
+      const auto answered   = Utilities::MPI::all_gather(communicator, answers);
+      const unsigned int me = Utilities::MPI::this_mpi_process(communicator);
+      std::vector<unsigned int> result;
+      for (unsigned int i = 0; i < places.size(); ++i)
+        {
+          Nearest nearest = answered[0][me][i];
+          for (const auto &of_rank : answered)
+            nearest = std::min(nearest, of_rank[me][i]);
+          result.push_back(nearest.second);
+        }
+      return result;
+    }
+
+
+
+    /** The virgin state of the material that the particles bound. Collective.
+     */
+    template <int dim>
+    void give_material(const ParameterFile       &file,
+                       const Scene<dim>          &scene,
+                       const MaterialPoints<dim> &points,
+                       const MPI_Comm             communicator,
+                       BoundaryParticles<dim>    &particles)
+    {
+      std::vector<Point<dim>> places;
+      for (unsigned int b = 0; b < particles.n(); ++b)
+        places.push_back(particles.position(b));
+      std::vector<unsigned int> bodies(particles.n(), 0);
+      if (scene.bodies.size() > 1)
+        bodies = nearest_bodies(points, places, communicator);
+
+      const auto                    &slots = particles.slots();
+      std::vector<InitialState<dim>> initial;
+      for (const BodyParameters &body : scene.bodies)
+        initial.emplace_back(file, body);
+      on_all_ranks(communicator, [&]() {
+        for (unsigned int b = 0; b < particles.n(); ++b)
+          {
+            double *state     = particles.data(b);
+            state[slots.body] = bodies[b];
+            const auto stress = initial[bodies[b]].stress_at(places[b]);
+            put_stress(stress, slots.stress, state);
+            put_stress(stress, slots.initial_stress, state);
+            if (particles.carried().n_history > 0)
+              points.material_of_body(bodies[b]).initialise(stress,
+                                                            state +
+                                                              slots.history);
+          }
+      });
     }
   } // namespace
 
@@ -108,7 +192,8 @@ namespace Impoint
   {
     std::vector<std::shared_ptr<Materials::Material<dim>>> materials;
     CarriedState                                           carried;
-    carried.dynamic = scene.time.is_dynamic();
+    carried.dynamic    = scene.time.is_dynamic();
+    carried.keeps_grid = scene.grid.is_kept();
     for (const auto &body : scene.bodies)
       {
         materials.push_back(
@@ -167,26 +252,41 @@ namespace Impoint
 
   template <int dim>
   typename NonlinearSystem<dim>::Methods
-  place_boundaries(const ParameterFile &file,
-                   const Scene<dim>    &scene,
-                   const Basis<dim>    &basis,
-                   const bool           with_particles)
+  place_boundaries(const ParameterFile       &file,
+                   const Scene<dim>          &scene,
+                   const Basis<dim>          &basis,
+                   const MaterialPoints<dim> &points,
+                   const bool                 with_particles)
   {
     typename NonlinearSystem<dim>::Methods methods;
     // Areas are those of the thickness that the bodies have.
     const double thickness = dim == 2 ? scene.bodies.front().thickness : 1.;
     for (unsigned int i = 0; i < scene.boundaries.size(); ++i)
       if (scene.boundaries[i].kind == "nonconforming")
-        methods.push_back(Enforcement::create<dim>(
-          file,
-          scene.conditions[i],
-          std::make_unique<BoundaryParticles<dim>>(
-            basis,
-            scene.boundaries[i].name,
-            with_particles ?
-              seed_boundary(file, scene.boundaries[i], basis.grid()) :
-              std::vector<SeededBoundaryParticle<dim>>(),
-            thickness)));
+        {
+          CarriedByBoundary carried;
+          carried.keeps_grid     = points.carried().keeps_grid;
+          carried.material       = scene.conditions[i].carries_material();
+          carried.initial_stress = points.carried().initial_stress;
+          carried.n_history      = points.carried().n_history;
+          methods.push_back(Enforcement::create<dim>(
+            file,
+            scene.conditions[i],
+            std::make_unique<BoundaryParticles<dim>>(
+              basis,
+              scene.boundaries[i].name,
+              with_particles ?
+                seed_boundary(file, scene.boundaries[i], basis.grid()) :
+                std::vector<SeededBoundaryParticle<dim>>(),
+              thickness,
+              carried)));
+          if (carried.material && with_particles)
+            give_material(file,
+                          scene,
+                          points,
+                          basis.grid().communicator(),
+                          methods.back()->particles());
+        }
     return methods;
   }
 
@@ -204,10 +304,12 @@ namespace Impoint
   place_boundaries(const ParameterFile &,
                    const Scene<2> &,
                    const Basis<2> &,
+                   const MaterialPoints<2> &,
                    const bool);
   template typename NonlinearSystem<3>::Methods
   place_boundaries(const ParameterFile &,
                    const Scene<3> &,
                    const Basis<3> &,
+                   const MaterialPoints<3> &,
                    const bool);
 } // namespace Impoint

@@ -7,7 +7,6 @@
 #include <impoint/setup_checks.h>
 #include <impoint/simulation.h>
 #include <impoint/solver/motion.h>
-#include <impoint/terms/body_force.h>
 #include <impoint/terms/internal_force.h>
 
 #include <algorithm>
@@ -39,7 +38,7 @@ namespace Impoint
     , points(options.resume ? without_points(file, scene, basis) :
                               place_bodies(file, scene, basis))
     , conforming(basis)
-    , methods(place_boundaries(file, scene, basis, !options.resume))
+    , methods(place_boundaries(file, scene, basis, *points, !options.resume))
     , inertia(scene.time)
     , history(folder)
     , pictures(folder)
@@ -49,7 +48,9 @@ namespace Impoint
     , last_checkpoint(start_of_run)
   {
     for (const auto &body : scene.bodies)
-      body_forces.emplace_back(file, body.section + "/Body force", dim);
+      body_loads.push_back(
+        {Expression<dim>(file, body.section + "/Body force", dim),
+         body.force_place == "start"});
     step_size.size = scene.time.step;
     boundary_places.resize(methods.size());
     check_boundaries();
@@ -227,9 +228,10 @@ namespace Impoint
     bool changed = false;
     {
       ScopedSeconds timer(seconds.pattern);
-      changed = active.reinit(points->cells(),
-                              Enforcement::cells(methods, start, end),
-                              [&]() { return system->find_links(start, end); });
+      changed = active.reinit(
+        points->cells(),
+        Enforcement::cells(methods, start, end, scene.grid.is_kept()),
+        [&]() { return system->find_links(start, end); });
     }
     // Whether a run went on or was resumed after a checkpoint must not show in
     // its last digits: both begin with a new factor.
@@ -259,12 +261,11 @@ namespace Impoint
     if (dynamic)
       {
         ScopedSeconds timer(seconds.project);
-        ++counters.projections;
-        inertia.project(active, *points, dt);
+        counters.projections += inertia.begin_step(active, *points, dt);
       }
     system->begin_step(time,
                        end,
-                       body_force(*points, active, body_forces, end),
+                       body_force(*points, active, body_loads, end),
                        dynamic ? &inertia : nullptr);
     // Newton's last residual is that of the solution, unless a step is linear.
     end_states.reinit(*points, !system->is_linear());
@@ -284,10 +285,11 @@ namespace Impoint
         Vector accelerations;
         system->initial_acceleration(accelerations);
         set_accelerations(active, accelerations, *points);
+        if (scene.grid.is_kept())
+          inertia.carry(accelerations);
       }
     begin_step(dt, time + dt);
     warn_of_lost_loads();
-
     u.reinit(active.unknowns());
     u.update_ghost_values();
     newton->solve(u);
@@ -302,9 +304,9 @@ namespace Impoint
   void Simulation<dim>::find_new_places()
   {
     ScopedSeconds timer(seconds.locate);
-    new_places(*points, active, u, places);
-    points->find(places);
-
+    if (!scene.grid.is_kept())
+      new_places(*points, active, u, places);
+    counters.searches += points->find(places);
     std::vector<double> cell_u;
     for (unsigned int m = 0; m < methods.size(); ++m)
       {
@@ -323,7 +325,7 @@ namespace Impoint
         if (methods[m]->moves())
           particles.find(boundary_places[m]);
       }
-    if (scene.time.is_dynamic())
+    if (scene.time.is_dynamic() && !scene.grid.is_kept())
       Enforcement::check_crossing(
         methods, active, *points, places, boundary_places);
   }
@@ -351,10 +353,14 @@ namespace Impoint
                     scene.time.is_dynamic() ? &inertia : nullptr,
                     end_states,
                     *points);
+      if (scene.time.is_dynamic() && scene.grid.is_kept())
+        inertia.end_step(u);
     }
     {
       ScopedSeconds timer(seconds.locate);
+      counters.shape_values -= points->n_evaluations();
       points_changed_cells = points->move();
+      counters.shape_values += points->n_evaluations();
       counters.sorts += points_changed_cells;
       for (unsigned int m = 0; m < methods.size(); ++m)
         if (methods[m]->moves())

@@ -6,6 +6,7 @@
 #include <impoint/particles/stored_particles.h>
 #include <impoint/setup_checks.h>
 #include <impoint/simulation.h>
+#include <impoint/solver/stored_nodes.h>
 
 #include <iomanip>
 #include <sstream>
@@ -167,6 +168,9 @@ namespace Impoint
         particles.tag(method->particles().name());
         store_particles(method->particles(), grid, particles);
       }
+    if (scene.grid.is_kept() && scene.time.is_dynamic())
+      for (Vector *vector : inertia.carried())
+        store_nodes(active, *vector, particles);
     std::string run = of_run.bytes(), rest = particles.bytes();
     piece &run &rest;
     Impoint::write_checkpoint(folder, counters.steps, piece.bytes());
@@ -203,6 +207,14 @@ namespace Impoint
         for (auto &archive : particles)
           archive.tag(method->particles().name());
         restore_particles(particles, cells, comm, method->particles());
+      }
+    if (scene.grid.is_kept() && scene.time.is_dynamic())
+      {
+        activate(time, time + step_size.size);
+        inertia.project(active, *points, step_size.size);
+        for (Vector *vector : inertia.carried())
+          restore_nodes(particles, cells, active, *vector);
+        inertia.set_carried();
       }
   }
 

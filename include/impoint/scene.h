@@ -62,6 +62,7 @@ namespace Impoint
     void check_effect(const ParameterFile       &file,
                       const ConditionParameters &condition) const;
     void check_support(const ParameterFile &file) const;
+    void check_reset(const ParameterFile &file) const;
   };
 } // namespace Impoint
 

@@ -27,10 +27,11 @@ namespace Impoint
    * their particles. Collective; throws InputError. */
   template <int dim>
   typename NonlinearSystem<dim>::Methods
-  place_boundaries(const ParameterFile &file,
-                   const Scene<dim>    &scene,
-                   const Basis<dim>    &basis,
-                   const bool           with_particles = true);
+  place_boundaries(const ParameterFile       &file,
+                   const Scene<dim>          &scene,
+                   const Basis<dim>          &basis,
+                   const MaterialPoints<dim> &points,
+                   const bool                 with_particles = true);
 } // namespace Impoint
 
 #endif

@@ -11,6 +11,7 @@
 #include <impoint/output/terminal.h>
 #include <impoint/scene.h>
 #include <impoint/solver/newton.h>
+#include <impoint/terms/body_force.h>
 
 #include <deque>
 #include <memory>
@@ -85,7 +86,7 @@ namespace Impoint
     BackgroundGrid<dim>                                          grid;
     Basis<dim>                                                   basis;
     ActiveNodes<dim>                                             active;
-    std::vector<Expression<dim>>                                 body_forces;
+    std::vector<BodyLoad<dim>>                                   body_loads;
     std::unique_ptr<MaterialPoints<dim>>                         points;
     EndStates<dim>                                               end_states;
     Enforcement::Conforming<dim>                                 conforming;

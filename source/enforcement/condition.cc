@@ -32,9 +32,37 @@ namespace Impoint
       "mean gap of each cell, which does not lock; lagrange multiplier: one "
       "for each cell (L); augmented Lagrangian: the same, from a penalty "
       "factor of yours, with all constraints; implicit boundary: displacements "
-      "that vanish at the boundary by construction (I).",
+      "that vanish at the boundary by construction (I); nitsche: by the "
+      "traction of the material itself, which the particles carry.",
       Patterns::Selection("penalty|projected penalty|augmented Lagrangian|"
-                          "lagrange multiplier|implicit boundary"));
+                          "lagrange multiplier|implicit boundary|nitsche"));
+    declare_factors(prm);
+    prm.add_parameter(
+      "Normals",
+      normals,
+      "Normals of a slip condition: each particle's own, or "
+      "averaged at the nodes (P Eq. 54); automatic: nodal where "
+      "the particles' normals differ, else particle.",
+      Patterns::Selection("automatic|particle|nodal"));
+    prm.add_parameter("Releasing",
+                      releasing,
+                      "The boundary presses but does not pull: contact with a "
+                      "wall (P Eq. 55). A fixed one sticks while it presses.",
+                      Patterns::Bool());
+    prm.add_parameter("Friction coefficient",
+                      friction,
+                      "Coulomb friction of a slip boundary [-].",
+                      Patterns::Double(0.));
+    declare_motion(prm);
+    prm.leave_subsection();
+    prm.leave_subsection();
+  }
+
+
+
+  /** What the methods look at, each on its own. */
+  void ConditionParameters::declare_factors(EntryHandler &prm)
+  {
     prm.add_parameter("Penalty factor",
                       factor,
                       "Penalty factor beta, in the unit below.",
@@ -58,6 +86,18 @@ namespace Impoint
                       "Width delta of the band of an implicit boundary, in "
                       "units of the cell size h.",
                       Patterns::Double(1e-12, 1.));
+    prm.add_parameter("Nitsche factor",
+                      nitsche_factor,
+                      "Penalty of Nitsche's method in units of n.C.n / h; h at "
+                      "most the width of the material in the cell. 0: 10, 20, "
+                      "45 for functions of degree 1, 2, 3.",
+                      Patterns::Double(0));
+    prm.add_parameter("Nitsche form",
+                      nitsche_form,
+                      "symmetric: the forces have a potential; non-symmetric: "
+                      "bears any factor, but is less accurate and needs an "
+                      "unsymmetric solver.",
+                      Patterns::Selection("symmetric|non-symmetric"));
     prm.add_parameter(
       "Small-cut rule",
       small_cut_rule,
@@ -65,25 +105,6 @@ namespace Impoint
       "53). It breaks linear reproduction: only to reproduce the "
       "paper.",
       Patterns::Bool());
-    prm.add_parameter(
-      "Normals",
-      normals,
-      "Normals of a slip condition: each particle's own, or "
-      "averaged at the nodes (P Eq. 54); automatic: nodal where "
-      "the particles' normals differ, else particle.",
-      Patterns::Selection("automatic|particle|nodal"));
-    prm.add_parameter("Releasing",
-                      releasing,
-                      "The boundary presses but does not pull: contact with a "
-                      "wall (P Eq. 55). A fixed one sticks while it presses.",
-                      Patterns::Bool());
-    prm.add_parameter("Friction coefficient",
-                      friction,
-                      "Coulomb friction of a slip boundary [-].",
-                      Patterns::Double(0.));
-    declare_motion(prm);
-    prm.leave_subsection();
-    prm.leave_subsection();
   }
 
 
@@ -207,6 +228,8 @@ namespace Impoint
             "Penalty unit",
             "Superfluous constraints",
             "Band width",
+            "Nitsche factor",
+            "Nitsche form",
             "Small-cut rule"},
            kind);
     // What only another enforcement looks at stays: the enforcement of a scene

@@ -2,6 +2,7 @@
 #include <impoint/enforcement/enforcement.h>
 #include <impoint/enforcement/implicit_boundary.h>
 #include <impoint/enforcement/lagrange_multiplier.h>
+#include <impoint/enforcement/nitsche.h>
 #include <impoint/enforcement/penalty.h>
 #include <impoint/enforcement/traction.h>
 
@@ -20,9 +21,12 @@ namespace Impoint
       , boundary(std::move(particles))
     {
       if (condition.motion == "automatic")
-        condition.motion = condition.constraint == "traction" ?
-                             "with the material" :
-                             "with the value";
+        condition.motion =
+          condition.constraint == "traction" ||
+              (condition.constraint == "slip" &&
+               condition.enforcement == "nitsche") ? // carries the material's F
+            "with the material" :
+            "with the value";
     }
 
 
@@ -151,6 +155,35 @@ namespace Impoint
 
 
     template <int dim>
+    void Method<dim>::follow_material(const unsigned int r, const double *u)
+    {
+      if (!boundary->carried().keeps_grid)
+        return;
+      const auto        &slots = boundary->slots();
+      const auto        &range = boundary->ranges()[r];
+      const unsigned int n     = current.active->basis().n_nodes_of(range.cell);
+      for (unsigned int b = range.begin; b < range.end; ++b)
+        boundary->set_vector(
+          b, slots.u, boundary->vector(b, slots.u) + displacement(b, n, u));
+    }
+
+
+
+    template <int dim>
+    Tensor<1, dim> Method<dim>::material_place(const unsigned int b,
+                                               const unsigned int n,
+                                               const double      *u) const
+    {
+      const auto &slots = boundary->slots();
+      return displacement(b, n, u) + (boundary->carried().keeps_grid ?
+                                        boundary->vector(b, slots.start) +
+                                          boundary->vector(b, slots.u) :
+                                        boundary->vector(b, slots.x));
+    }
+
+
+
+    template <int dim>
     bool Method<dim>::moves() const
     {
       return condition.motion == "with the material" ||
@@ -199,12 +232,14 @@ namespace Impoint
 
 
     template <int dim>
-    std::vector<unsigned int>
-    cells(const Methods<dim> &methods, const double start, const double end)
+    std::vector<unsigned int> cells(const Methods<dim> &methods,
+                                    const double        start,
+                                    const double        end,
+                                    const bool          all)
     {
       std::vector<unsigned int> result;
       for (const auto &method : methods)
-        if (method->parameters().is_active(start, end))
+        if (all || method->parameters().is_active(start, end))
           for (const auto &range : method->particles().ranges())
             result.push_back(range.cell);
       std::sort(result.begin(), result.end());
@@ -240,6 +275,10 @@ namespace Impoint
         return std::make_unique<ImplicitBoundary<dim>>(parameters,
                                                        std::move(motion),
                                                        std::move(particles));
+      if (name == "nitsche")
+        return std::make_unique<Nitsche<dim>>(parameters,
+                                              std::move(motion),
+                                              std::move(particles));
       throw file.error(parameters.section + "/Enforcement",
                        "no enforcement is called '" + parameters.enforcement +
                          "'",
@@ -249,9 +288,9 @@ namespace Impoint
     template class Method<2>;
     template class Method<3>;
     template std::vector<unsigned int>
-    cells(const Methods<2> &, const double, const double);
+    cells(const Methods<2> &, const double, const double, const bool);
     template std::vector<unsigned int>
-    cells(const Methods<3> &, const double, const double);
+    cells(const Methods<3> &, const double, const double, const bool);
     template std::unique_ptr<Method<2>>
     create(const ParameterFile &,
            const ConditionParameters &,

@@ -1,3 +1,4 @@
+#include <impoint/enforcement/acoustic_tensor.h>
 #include <impoint/enforcement/implicit_boundary.h>
 
 #include <algorithm>
@@ -11,25 +12,6 @@ namespace Impoint
       // What the V-cycle of the preconditioner bears, in units of E/h.
       constexpr double moderate_factor = 10.;
 
-
-
-      /** (v.C.w)_ij = v_k C_kilj w_l */
-      template <int dim>
-      Tensor<2, dim> contract(const Tensor<1, dim>   &v,
-                              const VoigtMatrix<dim> &C,
-                              const Tensor<1, dim>   &w)
-      {
-        Tensor<2, dim> result;
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            for (unsigned int k = 0; k < dim; ++k)
-              for (unsigned int l = 0; l < dim; ++l)
-                result[i][j] += v[k] *
-                                C[Voigt<dim>::position(k, i) * Voigt<dim>::n +
-                                  Voigt<dim>::position(l, j)] *
-                                w[l];
-        return result;
-      }
     } // namespace
 
 
@@ -128,7 +110,7 @@ namespace Impoint
 
       condition.held     = slip ? across : one;
       condition.acoustic = condition.held *
-                           contract(normal, state.tangent, normal) *
+                           acoustic_tensor(normal, state.tangent, normal) *
                            condition.held;
       // a slip boundary carries its gap along the normal in component 0
       Tensor<1, dim> total = this->boundary->vector(b, slots.gap);
@@ -167,8 +149,9 @@ namespace Impoint
               gradient[d] = gradients[a * dim + d];
               u_a[d]      = u[a * dim + d];
             }
-          condition.flux[a] =
-            condition.held * contract(normal, state.tangent, gradient) * weight;
+          condition.flux[a] = condition.held *
+                              acoustic_tensor(normal, state.tangent, gradient) *
+                              weight;
           condition.traction += condition.flux[a] * u_a;
         }
     }

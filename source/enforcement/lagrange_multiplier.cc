@@ -11,8 +11,8 @@ namespace Impoint
       // In units of E/h. A linear solve reduces the gap by this factor, and
       // looses its reciprocal in digits of the material's stiffness.
       // Constraints that cells share differ enough for the smaller factor. With
-      // contact, round-off of the gap beside a large factor would decide on what
-      // sticks and slides.
+      // contact, round-off of the gap beside a large factor would decide on
+      // what sticks and slides.
       constexpr double best_factor = 1e6, best_shared_factor = 1e4,
                        best_factor_of_contact = 1e2;
     } // namespace
@@ -44,11 +44,11 @@ namespace Impoint
       else if (!this->is_linear())
         law.gamma = best_factor_of_contact * this->unit(r);
       else
-        law.gamma = this->unit(r) *
-                    (this->shares_constraints() &&
-                         this->current.active->basis().degree() == 1 ?
-                       best_shared_factor :
-                       best_factor);
+        law.gamma =
+          this->unit(r) * (this->shares_constraints() &&
+                               this->current.active->basis().degree() == 1 ?
+                             best_shared_factor :
+                             best_factor);
       return law;
     }
 

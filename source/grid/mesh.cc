@@ -166,6 +166,15 @@ namespace Impoint
       "little that is: 1e-3 serves all bases, more adds to the error; 0: none; "
       "-1: 1e-3 for 'quadratic', which fails without, none for the others.",
       Patterns::Double(-1));
+    prm.add_parameter(
+      "Reset",
+      reset,
+      "every step: points lend their state to the grid as it was, wherever "
+      "they have moved to (updated Lagrangian). never: the grid deforms with "
+      "the body and keeps what it knows (total Lagrangian): steps cost less "
+      "and nothing crosses a cell, but cells must not be distorted much, "
+      "and there is no contact.",
+      Patterns::Selection("every step|never"));
     prm.add_parameter("Refine where",
                       refine_where,
                       "Expression of x, y(, z): cells at whose centre it is "

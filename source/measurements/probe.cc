@@ -73,17 +73,20 @@ namespace Impoint
       const State<dim>                                 &state,
       const LinearAlgebra::distributed::Vector<double> *u) const
     {
-      const auto    &grid     = state.active.basis().grid();
-      const auto     occupied = state.points.cells();
+      const auto &grid     = state.active.basis().grid();
+      const auto  occupied = state.points.cells();
+      // a kept grid has the place where it was at the start
+      const Point<dim> here(
+        state.points.carried().keeps_grid ? place - displacement : place);
       Tensor<1, dim> reach;
       for (unsigned int d = 0; d < dim; ++d)
         reach[d] = search_radius;
 
       std::vector<Candidate> found;
-      for (const unsigned int c : grid.cells_near(place - reach, place + reach))
+      for (const unsigned int c : grid.cells_near(here - reach, here + reach))
         if (std::binary_search(occupied.begin(), occupied.end(), c))
           {
-            const Point<dim> xi       = grid.to_reference(c, place);
+            const Point<dim> xi       = grid.to_reference(c, here);
             const double     distance = distance_outside(xi, grid.simplicial());
             if (distance > 1)
               continue;

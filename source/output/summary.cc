@@ -43,6 +43,8 @@ namespace Impoint
               {"boundary particles", record.boundary_particles},
               {"unknowns", record.unknowns},
               {"sorts", counters.sorts},
+              {"searches", counters.searches},
+              {"shape values", counters.shape_values},
               {"patterns", counters.patterns},
               {"tangents", counters.tangents},
               {"residuals", counters.residuals},

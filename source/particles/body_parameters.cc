@@ -80,6 +80,17 @@ namespace Impoint
                       thickness,
                       "2D: across the plane [m].",
                       Patterns::Double(std::numeric_limits<double>::min()));
+    declare_state(prm);
+    prm.leave_subsection();
+    prm.leave_subsection();
+    mesh.declare(file, section + "/Mesh", "", "");
+  }
+
+
+
+  /** How the body begins, and its load. */
+  void BodyParameters::declare_state(EntryHandler &prm)
+  {
     prm.declare_entry("Initial velocity",
                       "",
                       Patterns::Anything(),
@@ -97,6 +108,12 @@ namespace Impoint
                       "Force per mass, such as gravity: expressions of x, "
                       "y(, z), t, components separated by ';' [m/s2]; empty: "
                       "none.");
+    prm.add_parameter("Body force place",
+                      force_place,
+                      "What x, y(, z) of the body force are of a point: where "
+                      "it is at the start of the step, or where it was at the "
+                      "start of the run.",
+                      Patterns::Selection("now|start"));
     prm.declare_entry(
       "Initial stress",
       "",
@@ -104,9 +121,6 @@ namespace Impoint
       "Expressions of x, y(, z), tension positive: in 2D xx; yy; xy or xx; yy; "
       "xy; zz (zz is 0 if left out), in 3D xx; yy; zz; xy; xz; yz [Pa]; empty: "
       "none. Plastic models begin with its elastic strain.");
-    prm.leave_subsection();
-    prm.leave_subsection();
-    mesh.declare(file, section + "/Mesh", "", "");
   }
 
 

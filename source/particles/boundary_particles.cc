@@ -1,9 +1,19 @@
+#include <impoint/base/voigt.h>
 #include <impoint/particles/boundary_particles.h>
 
 namespace Impoint
 {
+  namespace
+  {
+    // Kirchhoff stress, Voigt; then its zz in 2D
+    template <int dim>
+    constexpr unsigned int n_stress = Voigt<dim>::n + (dim == 2 ? 1 : 0);
+  } // namespace
+
+
+
   template <int dim>
-  BoundaryParticles<dim>::Slots::Slots()
+  BoundaryParticles<dim>::Slots::Slots(const CarriedByBoundary &carried)
     : x(layout.add("position", dim))
     , start(layout.add("start", dim))
     , normal(layout.add("normal", dim))
@@ -12,6 +22,17 @@ namespace Impoint
     , increment(layout.add("increment", dim))
     , multiplier(layout.add("multiplier", dim))
     , force(layout.add("force", dim))
+    , u(layout.add("displacement", carried.keeps_grid ? dim : 0))
+    , start_normal(layout.add("start normal", carried.material ? dim : 0))
+    , F(layout.add("deformation gradient", carried.material ? dim * dim : 0))
+    , stress(layout.add("stress", carried.material ? n_stress<dim> : 0))
+    , body(layout.add("body", carried.material ? 1 : 0))
+    , initial_stress(layout.add("initial stress",
+                                carried.material && carried.initial_stress ?
+                                  n_stress<dim> :
+                                  0))
+    , history(layout.add("history", carried.material ? carried.n_history : 0))
+    , couple(layout.add("couple", carried.material ? (dim == 2 ? 1 : 3) : 0))
   {}
 
 
@@ -21,10 +42,15 @@ namespace Impoint
     const Basis<dim>                               &basis,
     const std::string                              &name,
     const std::vector<SeededBoundaryParticle<dim>> &seeds,
-    const double                                    thickness)
-    : PointCloud<dim>(basis, Slots().layout)
+    const double                                    thickness,
+    const CarriedByBoundary                        &carried)
+    : PointCloud<dim>(basis,
+                      Slots(carried).layout,
+                      carried.keeps_grid ? Slots(carried).start : 0)
     , boundary_name(name)
     , body_thickness(thickness)
+    , carried_state(carried)
+    , slot(carried)
   {
     std::vector<typename PointCloud<dim>::NewParticle> particles;
     for (const auto &seed : seeds)
@@ -35,6 +61,11 @@ namespace Impoint
             state[slot.x + d]      = seed.x[d];
             state[slot.start + d]  = seed.x[d];
             state[slot.normal + d] = seed.normal[d];
+            if (carried.material)
+              {
+                state[slot.start_normal + d]  = seed.normal[d];
+                state[slot.F + d * (dim + 1)] = 1.;
+              }
           }
         state[slot.area] = seed.area * thickness;
         particles.push_back(

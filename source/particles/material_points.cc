@@ -15,6 +15,7 @@ namespace Impoint
     , body(layout.add("body", 1))
     , v(layout.add("velocity", carried.dynamic ? dim : 0))
     , a(layout.add("acceleration", carried.dynamic ? dim : 0))
+    , start(layout.add("start", carried.keeps_grid ? dim : 0))
     , initial_stress(layout.add("initial stress",
                                 carried.initial_stress ?
                                   Voigt<dim>::n + (dim == 2 ? 1 : 0) :
@@ -29,7 +30,9 @@ namespace Impoint
     const Basis<dim>                      &basis,
     const CarriedState                    &carried,
     std::vector<std::shared_ptr<Material>> materials)
-    : PointCloud<dim>(basis, Slots(carried).layout)
+    : PointCloud<dim>(basis,
+                      Slots(carried).layout,
+                      carried.keeps_grid ? Slots(carried).start : 0)
     , slot(carried)
     , carried_state(carried)
     , materials(std::move(materials))
@@ -92,33 +95,57 @@ namespace Impoint
                                     Materials::Response<dim>    &response,
                                     double *new_history) const
   {
-    const double *state        = this->data(p);
-    deformation.grad_increment = grad_u;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        {
-          double sum = state[slot.F + i * dim + j];
-          for (unsigned int k = 0; k < dim; ++k)
-            sum += grad_u[i][k] * state[slot.F + k * dim + j];
-          deformation.F[i][j] = sum;
-        }
+    const double *state = this->data(p);
+    if (carried_state.keeps_grid)
+      {
+        // grad_u is that by the places at the start of the run
+        const Tensor<2, dim> F_old = deformation_gradient(p);
+        deformation.F              = F_old + grad_u;
+        deformation.grad_increment =
+          material(p).small_strain() ? grad_u : grad_u * invert(F_old);
+      }
+    else
+      {
+        deformation.grad_increment = grad_u;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              double sum = state[slot.F + i * dim + j];
+              for (unsigned int k = 0; k < dim; ++k)
+                sum += grad_u[i][k] * state[slot.F + k * dim + j];
+              deformation.F[i][j] = sum;
+            }
+      }
+    MaterialState old;
+    old.body   = body(p);
+    old.stress = state + slot.stress;
+    if (carried_state.initial_stress)
+      old.initial_stress = state + slot.initial_stress;
+    if (carried_state.n_history > 0)
+      old.history = state + slot.history;
+    respond(old, tangent_wanted, deformation, response, new_history);
+  }
+
+
+
+  template <int dim>
+  void MaterialPoints<dim>::respond(const MaterialState         &old,
+                                    const bool                   tangent_wanted,
+                                    Materials::Deformation<dim> &deformation,
+                                    Materials::Response<dim>    &response,
+                                    double *new_history) const
+  {
     for (unsigned int k = 0; k < Voigt<dim>::n; ++k)
-      deformation.old_stress[k] = state[slot.stress + k];
+      deformation.old_stress[k] = old.stress[k];
     if constexpr (dim == 2)
-      deformation.old_stress_zz = state[slot.stress + Voigt<dim>::n];
+      deformation.old_stress_zz = old.stress[Voigt<dim>::n];
 
-    const Material &material = this->material(p);
-    material.respond(deformation,
-                     carried_state.n_history > 0 ? state + slot.history :
-                                                   nullptr,
-                     new_history,
-                     tangent_wanted,
-                     response);
+    const Material &material = material_of_body(old.body);
+    material.respond(
+      deformation, old.history, new_history, tangent_wanted, response);
 
-    if (carried_state.initial_stress && !material.starts_from_stress())
-      add_initial_stress<dim>(state + slot.initial_stress,
-                              deformation.F,
-                              response);
+    if (old.initial_stress != nullptr && !material.starts_from_stress())
+      add_initial_stress<dim>(old.initial_stress, deformation.F, response);
   }
 
 

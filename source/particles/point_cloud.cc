@@ -14,9 +14,11 @@ namespace Impoint
 {
   template <int dim>
   PointCloud<dim>::PointCloud(const Basis<dim>     &basis,
-                              const PropertyLayout &layout)
+                              const PropertyLayout &layout,
+                              const unsigned int    anchor)
     : basis(basis)
     , property_layout(layout)
+    , anchor(anchor)
     , handler(std::make_unique<Handler>(basis.grid().triangulation(),
                                         basis.grid().mapping(),
                                         property_layout.n_doubles()))
@@ -77,7 +79,7 @@ namespace Impoint
       {
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
-          x[d] = particle.properties[d];
+          x[d] = particle.properties[anchor + d];
         arrivals.push_back({particle.cell,
                             particle.id,
                             basis.grid().to_reference(particle.cell, x),
@@ -240,6 +242,7 @@ namespace Impoint
   template <int dim>
   void PointCloud<dim>::evaluate_supports()
   {
+    ++evaluations;
     for (const Range &range : cell_ranges)
       basis.evaluate(range.cell,
                      ArrayView<const Point<dim>>(references.data() +
@@ -251,8 +254,10 @@ namespace Impoint
 
 
   template <int dim>
-  void PointCloud<dim>::find(const std::vector<Point<dim>> &new_places)
+  bool PointCloud<dim>::find(const std::vector<Point<dim>> &new_places)
   {
+    if (anchor != 0)
+      return false;
     const BackgroundGrid<dim> &grid = basis.grid();
     std::vector<unsigned int>  strays;
     moves.clear();
@@ -277,6 +282,7 @@ namespace Impoint
     if (Utilities::MPI::max(static_cast<unsigned int>(strays.size()),
                             grid.communicator()) > 0)
       find_strays(new_places, strays);
+    return true;
   }
 
 
@@ -333,6 +339,8 @@ namespace Impoint
   template <int dim>
   bool PointCloud<dim>::move()
   {
+    if (anchor != 0)
+      return false;
     const MPI_Comm comm = basis.grid().communicator();
     const bool     changed =
       Utilities::MPI::max(static_cast<unsigned int>(moves.size()), comm) > 0;

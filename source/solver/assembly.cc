@@ -1,4 +1,5 @@
 #include <impoint/base/exceptions.h>
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/solver/assembly.h>
 
 #include <algorithm>
@@ -352,7 +353,8 @@ namespace Impoint
       }
     Vector before(rest);
     rest = 0;
-    assemble_boundaries(u, tangent_wanted, part);
+    on_all_ranks(active.basis().grid().communicator(),
+                 [&]() { assemble_boundaries(u, tangent_wanted, part); });
     rest.compress(VectorOperation::add);
     scale = std::max(scale, rest.l2_norm());
     rest += before;

@@ -1,6 +1,7 @@
 #include <impoint/base/parameter_file.h>
 #include <impoint/grid/support_size.h>
 #include <impoint/solver/inertia.h>
+#include <impoint/solver/nodal_mass.h>
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,14 @@ namespace Impoint
                       mass,
                       "Mass matrix of the nodes.",
                       Patterns::Selection("lumped|consistent"));
+    prm.add_parameter(
+      "Projection",
+      projection,
+      "Velocities of the nodes at the start of a step; of the run where the "
+      "grid is never reset. lumped: means of what the points have, with "
+      "positive weights (P Eqs. 18-19), which smooth it; consistent: the least "
+      "squares' fit.",
+      Patterns::Selection("lumped|consistent"));
     prm.add_parameter("Initial acceleration",
                       initial,
                       "equilibrium: M a = f at the start; zero; expression: "
@@ -80,6 +89,7 @@ namespace Impoint
                                       "Spectral radius",
                                       "Velocity filter",
                                       "Mass",
+                                      "Projection",
                                       "Initial acceleration"})
         if (file.is_set("Time/" + entry))
           throw file.error("Time/" + entry,
@@ -112,6 +122,7 @@ namespace Impoint
              (parameters.spectral_radius + 1))
     , filter(parameters.filter)
     , is_consistent(parameters.mass == "consistent")
+    , projects_consistently(parameters.projection == "consistent")
   {
     if (bossak < 0)
       {
@@ -212,10 +223,47 @@ namespace Impoint
     for (Vector *vector : {&masses, &velocities, &accelerations})
       vector->compress(VectorOperation::add);
     masses.update_ghost_values();
-    divide_by_mass(velocities);
-    divide_by_mass(accelerations);
+    if (projects_consistently)
+      for (Vector *vector : {&velocities, &accelerations})
+        divide_by_consistent_mass(active, points, *vector);
+    else
+      for (Vector *vector : {&velocities, &accelerations})
+        divide_by_mass(*vector);
     if (filter > 0)
       find_seen_velocities(active, points);
+  }
+
+
+
+  template <int dim>
+  bool Inertia<dim>::begin_step(const ActiveNodes<dim>    &active,
+                                const MaterialPoints<dim> &points,
+                                const double               time_step)
+  {
+    dt = time_step;
+    if (has_carried)
+      return false;
+    project(active, points, time_step);
+    return true;
+  }
+
+
+
+  template <int dim>
+  void Inertia<dim>::end_step(const Vector &u)
+  {
+    const unsigned int n =
+      u.locally_owned_size() + u.get_partitioner()->n_ghost_indices();
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const double a_new = acceleration(i, u.local_element(i));
+        velocities.local_element(i) =
+          new_velocity(velocities.local_element(i),
+                       accelerations.local_element(i),
+                       a_new);
+        accelerations.local_element(i) = a_new;
+      }
+    has_carried = true;
   }
 
 

@@ -7,21 +7,27 @@ namespace Impoint
 {
   template <int dim>
   LinearAlgebra::distributed::Vector<double>
-  body_force(const MaterialPoints<dim>          &points,
-             const ActiveNodes<dim>             &active,
-             const std::vector<Expression<dim>> &body_forces,
-             const double                        at)
+  body_force(const MaterialPoints<dim>        &points,
+             const ActiveNodes<dim>           &active,
+             const std::vector<BodyLoad<dim>> &body_loads,
+             const double                      at)
   {
     LinearAlgebra::distributed::Vector<double> forces(active.unknowns());
-    if (std::all_of(body_forces.begin(),
-                    body_forces.end(),
-                    [](const auto &force) { return force.is_zero(); }))
+    if (std::all_of(body_loads.begin(), body_loads.end(), [](const auto &load) {
+          return load.per_mass.is_zero();
+        }))
       return forces;
     const unsigned int          mass = points.slots().mass;
     std::vector<Tensor<1, dim>> constant;
-    for (const auto &force : body_forces)
-      constant.push_back(force.is_constant() ? force.vector({}, at) :
-                                               Tensor<1, dim>());
+    for (const auto &load : body_loads)
+      constant.push_back(load.per_mass.is_constant() ?
+                           load.per_mass.vector({}, at) :
+                           Tensor<1, dim>());
+    const auto place = [&](const unsigned int p, const unsigned int body) {
+      return body_loads[body].of_start ?
+               points.position(p) - points.vector(p, points.slots().u) :
+               points.position(p);
+    };
     std::vector<double> cell_forces;
     on_all_ranks(active.basis().grid().communicator(), [&]() {
       for (unsigned int k = 0; k < active.n_material_cells(); ++k)
@@ -32,12 +38,12 @@ namespace Impoint
           for (unsigned int p = range.begin; p < range.end; ++p)
             {
               const unsigned int   body  = points.body(p);
-              const auto          &force = body_forces[body];
+              const auto          &force = body_loads[body].per_mass;
               const double        *N     = points.support(p);
               const Tensor<1, dim> load =
                 points.data(p)[mass] * (force.is_constant() ?
                                           constant[body] :
-                                          force.vector(points.position(p), at));
+                                          force.vector(place(p, body), at));
               for (unsigned int a = 0; a < nodes.size(); ++a)
                 for (unsigned int d = 0; d < dim; ++d)
                   cell_forces[a * dim + d] += N[a] * load[d];
@@ -55,11 +61,11 @@ namespace Impoint
   template LinearAlgebra::distributed::Vector<double>
   body_force(const MaterialPoints<2> &,
              const ActiveNodes<2> &,
-             const std::vector<Expression<2>> &,
+             const std::vector<BodyLoad<2>> &,
              const double);
   template LinearAlgebra::distributed::Vector<double>
   body_force(const MaterialPoints<3> &,
              const ActiveNodes<3> &,
-             const std::vector<Expression<3>> &,
+             const std::vector<BodyLoad<3>> &,
              const double);
 } // namespace Impoint

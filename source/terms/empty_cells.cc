@@ -128,8 +128,7 @@ namespace Impoint
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int i = 0; i < dim; ++i)
         {
-          double &entry =
-            system.matrix[(a * n + a) * dim * dim + i * dim + i];
+          double &entry = system.matrix[(a * n + a) * dim * dim + i * dim + i];
           entry += part * std::abs(entry);
         }
   }

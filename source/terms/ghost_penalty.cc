@@ -44,7 +44,9 @@ namespace Impoint
         const double *state = points.data(p);
         initial += state[points.slots().volume];
         volume += state[points.slots().volume] *
-                  determinant(points.deformation_gradient(p));
+                  (points.carried().keeps_grid ?
+                     1. :
+                     determinant(points.deformation_gradient(p)));
         mass += state[points.slots().mass];
         result.young = std::max(result.young, points.material(p).young());
       }

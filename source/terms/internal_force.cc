@@ -16,7 +16,7 @@ namespace Impoint
         return i == j ? i : i + j + 2;
     }
 
-    /** grad u = sum_a u_a x G_a (at the start of the step). */
+    /** grad u = sum_a u_a x G_a (at the places of the supports). */
     template <int dim>
     Tensor<2, dim>
     displacement_gradient(const int n, const double *u, const double *gradients)
@@ -29,16 +29,13 @@ namespace Impoint
       return grad_u;
     }
 
-    /** Gradients at the end of the step: G_a f^-1, f = 1 + grad u. */
+    /** Gradients at the end of the step: G_a f^-1. */
     template <int dim>
     void push_forward(const int             n,
-                      const Tensor<2, dim> &grad_u,
+                      const Tensor<2, dim> &f,
                       const double         *start,
                       double               *end)
     {
-      Tensor<2, dim> f = grad_u;
-      for (int d = 0; d < dim; ++d)
-        f[d][d] += 1.;
       const Tensor<2, dim> inverse = invert(f);
       for (int a = 0; a < n; ++a)
         for (int j = 0; j < dim; ++j)
@@ -239,7 +236,10 @@ namespace Impoint
         const bool finite = !points.material(p).small_strain();
         if (finite)
           {
-            push_forward<dim>(n, grad_u, gradients, pushed);
+            push_forward<dim>(n,
+                              points.map_of_supports(deformation),
+                              gradients,
+                              pushed);
             gradients = pushed;
           }
         const double volume = points.data(p)[points.slots().volume];

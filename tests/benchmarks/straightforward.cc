@@ -95,9 +95,8 @@ public:
   {
     conforming.add_boundary(file, scene.conditions[0], 2);
     system.add_term(std::make_unique<InternalForce<dim>>(*points));
-    body_forces.emplace_back(file,
-                             scene.bodies[0].section + "/Body force",
-                             dim);
+    body_loads.push_back(
+      {Expression<dim>(file, scene.bodies[0].section + "/Body force", dim)});
   }
 
   void step(const double start, const double end)
@@ -109,7 +108,7 @@ public:
       system.find_starved_cells();
     system.begin_step(start,
                       end,
-                      body_force(*points, active, body_forces, end),
+                      body_force(*points, active, body_loads, end),
                       nullptr);
     u.reinit(active.unknowns());
     u.update_ghost_values();
@@ -131,7 +130,7 @@ public:
   Seconds                                seconds;
   NonlinearSystem<dim>                   system;
   Newton<dim>                            newton;
-  std::vector<Expression<dim>>           body_forces;
+  std::vector<BodyLoad<dim>>             body_loads;
   typename NonlinearSystem<dim>::Vector  u;
   bool                                   moved = false;
 };

@@ -63,7 +63,7 @@ public:
     , basis(grid)
     , active(basis)
     , points(place_bodies(file, scene, basis))
-    , methods(place_boundaries(file, scene, basis))
+    , methods(place_boundaries(file, scene, basis, *points))
   {
     for (const auto &parameters : scene.measurements)
       measurements.push_back(Measurements::create<dim>(file, parameters));

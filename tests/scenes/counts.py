@@ -43,6 +43,15 @@ def main():
     expect(0 < moving["sorts"] <= STEPS and
            moving["newton iterations"] > STEPS, "sorts aren't counted")
     print("points that change cells are sorted: yes")
+    expect(moving["searches"] == moving["shape values"] == STEPS,
+           "searches and shape values aren't counted")
+
+    kept = run_scene("quickstart.prm", "kept", [
+        *LINEAR, *MOVING, "Grid/Reset = never",
+        "Boundaries/clamp/Enforcement = nitsche"])["counts"]
+    show_and_compare("grid never reset", kept,
+                     {"steps": STEPS, "sorts": 0, "searches": 0,
+                      "shape values": 0, "patterns": 1, "projections": 0})
 
 
 main()

@@ -11,6 +11,8 @@ TOLERANCE = 1e-9
 
 COARSE = ["Grid/Arguments = 19, 7 : 0, 0 : 9.5, 3.5", "Grid/Shift = -0.2, -1.8",
           "Bodies/beam/Mesh/Arguments = 32, 4 : 0, 0 : 8, 1"]
+VORTEX = ["Grid/Arguments = 12, 12 : -1.5, -1.5 : 1.5, 1.5", "Time/End time = 0.05",
+          "Bodies/ring/Points per direction = 2", "Output/Pictures every = 0"]
 SCENES = {
     "quads": ("quickstart.prm", COARSE),
     "triangles": ("quickstart.prm", [*COARSE, "Grid/Cells = triangles"]),
@@ -41,8 +43,11 @@ SCENES = {
                  "Boundaries/floor/Enforcement = lagrange multiplier"]),
     "friction": ("beyond/friction-block.prm",
                  ["Output/Pictures every = 0", "Time/End time = 0.1"]),
+    "kept grid": (HERE / "ranks_bar_3d.prm", ["Grid/Reset = never"]),
+    "kept grid, dynamic": ("beyond/generalised-vortex.prm", VORTEX),
 }
-for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary"):
+for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary",
+               "nitsche"):
     clamp = f"Boundaries/clamp/Enforcement = {method}"
     SCENES[method] = ("quickstart.prm", [*COARSE, "Grid/Cells = triangles", clamp])
     SCENES[f"{method}, hexes"] = (HERE / "ranks_bar_3d.prm", [

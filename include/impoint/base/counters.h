@@ -15,6 +15,8 @@ namespace Impoint
     std::size_t steps        = 0;
     std::size_t halved_steps = 0;
     std::size_t sorts        = 0; // steps in which some point changed its cell
+    std::size_t searches     = 0; // for the cells of the points
+    std::size_t shape_values = 0; // how often those of all points were renewed
     std::size_t patterns     = 0; // sparsity patterns built
     std::size_t tangents     = 0;
     std::size_t residuals    = 0;
@@ -31,6 +33,8 @@ namespace Impoint
       return {&steps,
               &halved_steps,
               &sorts,
+              &searches,
+              &shape_values,
               &patterns,
               &tangents,
               &residuals,

@@ -37,6 +37,12 @@ namespace Impoint
              enforcement == "augmented Lagrangian";
     }
 
+    /** Whether the particles carry the state of the material. */
+    bool carries_material() const
+    {
+      return constraint != "traction" && enforcement == "nitsche";
+    }
+
     std::string name, section;
 
     std::string constraint = "fixed"; // fixed|slip|roller|traction
@@ -46,6 +52,8 @@ namespace Impoint
     std::string factor_unit    = "E/h";       // E/h|Pa/m
     std::string superfluous    = "automatic"; // automatic|keep|remove|share
     double      band_width     = 1e-6;        // [h]
+    double      nitsche_factor = 0;           // [n.C.n/h]; 0: by degree
+    std::string nitsche_form   = "symmetric"; // symmetric|non-symmetric
     bool        small_cut_rule = false;
     bool        releasing      = false;
     double      friction       = 0;              // of a slip boundary
@@ -57,6 +65,7 @@ namespace Impoint
     double              until = std::numeric_limits<double>::max();
 
   private:
+    void declare_factors(EntryHandler &prm);
     void declare_motion(EntryHandler &prm);
     void check_unused(const ParameterFile &file, const bool conforming) const;
   };

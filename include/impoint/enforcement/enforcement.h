@@ -163,6 +163,16 @@ namespace Impoint
        * @p r; @p u is null where the condition does not act. */
       virtual void end_step(const unsigned int r, const double *u) = 0;
 
+      /** Brings up to date what the particles of range @p r carry of the
+       * material, whether the condition acts or not; after end_step(). */
+      virtual void follow_material(const unsigned int r, const double *u);
+
+      /** Where the material at particle @p b is at the end of the step, as far
+       * as the grid knows. */
+      Tensor<1, dim> material_place(const unsigned int b,
+                                    const unsigned int n,
+                                    const double      *u) const;
+
       /** Where the particles will be at the end of the step: of the particles
        * in range @p r, with the cell's displacements @p u. */
       void new_places(const unsigned int       r,
@@ -226,11 +236,12 @@ namespace Impoint
     }
 
     /** This rank's cells with particles of the methods that act from @p start
-     * to
-     * @p end, increasing. */
+     * to @p end, or of @p all, increasing. */
     template <int dim>
-    std::vector<unsigned int>
-    cells(const Methods<dim> &methods, const double start, const double end);
+    std::vector<unsigned int> cells(const Methods<dim> &methods,
+                                    const double        start,
+                                    const double        end,
+                                    const bool          all = false);
 
     /** The method named by @p parameters. Throws InputError. */
     template <int dim>

@@ -66,6 +66,12 @@ namespace Impoint
       return basis == "quadratic" ? smallest_that_serves : 0.;
     }
 
+    std::string reset = "every step"; // every step|never
+    bool        is_kept() const
+    {
+      return reset == "never";
+    }
+
     // expression of x: cells whose centre has a value > 0 are refined further
     std::string  refine_where;
     unsigned int refine_times = 1;

@@ -41,9 +41,12 @@ namespace Impoint
     double density   = 0; // [kg/m3]
     double thickness = 1; // 2D [m]
 
+    std::string force_place = "now"; // now|start: x, y(, z) of the body force
+
   private:
     void declare_shape(EntryHandler &prm);
     void check_signed_distance(const ParameterFile &file) const;
+    void declare_state(EntryHandler &prm);
     void check_outline(const ParameterFile &file, const unsigned int dim) const;
     void check_points(const ParameterFile &file, const unsigned int dim) const;
   };

@@ -9,6 +9,15 @@
 
 namespace Impoint
 {
+  /** Which parts of a boundary particle's state a scene needs at all. */
+  struct CarriedByBoundary
+  {
+    bool         keeps_grid     = false; // supports are those of the start
+    bool         material       = false; // the state of the body it bounds
+    bool         initial_stress = false; // of that
+    unsigned int n_history      = 0;
+  };
+
   /**
    * The particles of one nonconforming boundary: where it is, which way it
    * faces, and the state of its condition.
@@ -20,7 +29,7 @@ namespace Impoint
     /** Slots of a particle's state in data(b). */
     struct Slots
     {
-      Slots();
+      explicit Slots(const CarriedByBoundary &carried);
 
       PropertyLayout layout;
       unsigned int   x;          // place of the wall [m]
@@ -31,12 +40,21 @@ namespace Impoint
       unsigned int   increment;  // of the wall in this step
       unsigned int   multiplier; // of an augmented condition; slip: [0]
       unsigned int   force;      // on the material [N], end of the last step
+
+      // if the grid is kept: displacement of the material since the start [m]
+      unsigned int u;
+
+      // of the material it bounds, if it carries that; as MaterialPoints::Slots
+      unsigned int start_normal; // normal at the start of the run
+      unsigned int F, stress, body, initial_stress, history;
+      unsigned int couple; // on the material beside the force [Nm]; 2D: z
     };
 
     BoundaryParticles(const Basis<dim>                               &basis,
                       const std::string                              &name,
                       const std::vector<SeededBoundaryParticle<dim>> &seeds,
-                      const double thickness);
+                      const double                                    thickness,
+                      const CarriedByBoundary &carried = {});
 
     const std::string &name() const
     {
@@ -45,6 +63,10 @@ namespace Impoint
     const Slots &slots() const
     {
       return slot;
+    }
+    const CarriedByBoundary &carried() const
+    {
+      return carried_state;
     }
 
     Tensor<1, dim> vector(const unsigned int b, const unsigned int at) const
@@ -75,9 +97,10 @@ namespace Impoint
     }
 
   private:
-    std::string boundary_name;
-    double      body_thickness;
-    Slots       slot;
+    std::string       boundary_name;
+    double            body_thickness;
+    CarriedByBoundary carried_state;
+    Slots             slot;
   };
 } // namespace Impoint
 

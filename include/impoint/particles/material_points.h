@@ -15,6 +15,17 @@ namespace Impoint
     bool         dynamic        = false; // velocity, acceleration
     bool         initial_stress = false;
     unsigned int n_history      = 0;
+    bool         keeps_grid     = false; // supports are those of the start
+  };
+
+  /** What a piece of material is and remembers, whoever carries it. */
+  struct MaterialState
+  {
+    unsigned int  body           = 0;
+    const double *F              = nullptr; // as in MaterialPoints::Slots
+    const double *stress         = nullptr;
+    const double *initial_stress = nullptr; // null: none
+    const double *history        = nullptr; // null: none
   };
 
   /**
@@ -41,6 +52,7 @@ namespace Impoint
       unsigned int   volume; // at the start [m3]
       unsigned int   body;   // number
       unsigned int   v, a;   // velocity, acceleration; dynamic scenes only
+      unsigned int   start;  // place at the start; if the grid is kept
       unsigned int   initial_stress; // second Piola-Kirchhoff, as stress
       unsigned int   history;
     };
@@ -92,14 +104,35 @@ namespace Impoint
     }
 
     /** Stress at the end of a step with displacement gradient @p grad_u (at
-     * the places at its start); with the prescribed initial stress. F is that
-     * at the end. @p new_history may be null. */
+     * the places of the supports); with the prescribed initial stress. F is
+     * that at the end. @p new_history may be null. */
     void respond(const unsigned int           p,
                  const Tensor<2, dim>        &grad_u,
                  const bool                   tangent_wanted,
                  Materials::Deformation<dim> &deformation,
                  Materials::Response<dim>    &response,
                  double                      *new_history) const;
+
+    /** The same of material that @p old describes at the start of the step;
+     * F and grad_increment are given. */
+    void respond(const MaterialState         &old,
+                 const bool                   tangent_wanted,
+                 Materials::Deformation<dim> &deformation,
+                 Materials::Response<dim>    &response,
+                 double                      *new_history) const;
+
+    /** Gradient of the places at the end of the step by those of the supports.
+     */
+    Tensor<2, dim>
+    map_of_supports(const Materials::Deformation<dim> &deformation) const
+    {
+      if (carried_state.keeps_grid)
+        return deformation.F;
+      Tensor<2, dim> f = deformation.grad_increment;
+      for (unsigned int d = 0; d < dim; ++d)
+        f[d][d] += 1.;
+      return f;
+    }
 
     double young() const
     {

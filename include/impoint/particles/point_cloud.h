@@ -57,8 +57,14 @@ namespace Impoint
       }
     };
 
-    /** The particle's place must be the first field of @p layout. */
-    PointCloud(const Basis<dim> &basis, const PropertyLayout &layout);
+    /**
+     * The particle's place must be the first field of @p layout. Supports are
+     * those of that place, or of the one in @p anchor, which then never
+     * changes: the particle keeps its cell and its support.
+     */
+    PointCloud(const Basis<dim>     &basis,
+               const PropertyLayout &layout,
+               const unsigned int    anchor = 0);
     ~PointCloud();
     PointCloud(PointCloud &&) noexcept;
 
@@ -108,9 +114,10 @@ namespace Impoint
     /**
      * Finds the cells of @p new_places, one for each particle, and remembers
      * them for move(). Throws StepFailed on every rank, with nothing changed,
-     * if one of them lies outside of the grid. Collective.
+     * if one of them lies outside of the grid. Nothing to do for particles
+     * with an anchor: returns false. Collective.
      */
-    void find(const std::vector<Point<dim>> &new_places);
+    bool find(const std::vector<Point<dim>> &new_places);
 
     /**
      * After the particles' places were set to what find() was asked for: puts
@@ -123,6 +130,12 @@ namespace Impoint
     const PropertyLayout &layout() const
     {
       return property_layout;
+    }
+
+    /** How often all supports were evaluated. */
+    std::size_t n_evaluations() const
+    {
+      return evaluations;
     }
 
   private:
@@ -171,6 +184,8 @@ namespace Impoint
 
     const Basis<dim>                  &basis;
     PropertyLayout                     property_layout;
+    unsigned int                       anchor;
+    std::size_t                        evaluations = 0;
     std::unique_ptr<Handler>           handler;
     Pool                              *pool; // the handler's
     std::vector<Range>                 cell_ranges;

@@ -6,6 +6,8 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <array>
+
 namespace Impoint
 {
   class ParameterFile;
@@ -25,6 +27,7 @@ namespace Impoint
     double      spectral_radius = 1; // of the highest frequencies, a step
     double      filter          = 0; // of unseen velocities [s]; 0: none
     std::string mass            = "lumped";      // lumped|consistent
+    std::string projection      = "lumped";      // lumped|consistent
     std::string initial         = "equilibrium"; // equilibrium|zero|expression
     bool        is_dynamic() const
     {
@@ -49,6 +52,35 @@ namespace Impoint
     void project(const ActiveNodes<dim>    &active,
                  const MaterialPoints<dim> &points,
                  const double               time_step);
+
+    /** Projects before the first step of a kept grid only: later ones find
+     * velocity and acceleration on the nodes. Returns whether it did.
+     * Collective. */
+    bool begin_step(const ActiveNodes<dim>    &active,
+                    const MaterialPoints<dim> &points,
+                    const double               time_step);
+
+    /** Velocity and acceleration of the nodes after a step with displacements
+     * @p u; of a kept grid. */
+    void end_step(const Vector &u);
+
+    /** What the nodes of a kept grid carry from step to step. */
+    std::array<Vector *, 2> carried()
+    {
+      return {{&velocities, &accelerations}};
+    }
+    /** Takes what carried() holds now in place of projected values. */
+    void set_carried()
+    {
+      has_carried = true;
+    }
+
+    /** The same with @p new_accelerations. */
+    void carry(const Vector &new_accelerations)
+    {
+      accelerations = new_accelerations;
+      has_carried   = true;
+    }
 
     bool consistent() const
     {
@@ -112,8 +144,9 @@ namespace Impoint
     void divide_by_mass(Vector &momenta) const;
 
     double beta, gamma, bossak, filter;
-    bool   is_consistent;
-    double dt = 1;
+    bool   is_consistent, projects_consistently;
+    bool   has_carried = false; // from the last step of a kept grid
+    double dt          = 1;
     Vector masses, velocities, accelerations, seen_velocities;
   };
 } // namespace Impoint

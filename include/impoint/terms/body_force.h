@@ -11,15 +11,23 @@
 
 namespace Impoint
 {
+  /** A body's load per mass. */
+  template <int dim>
+  struct BodyLoad
+  {
+    Expression<dim> per_mass; // [m/s2]
+    bool of_start = false;    // of the place at the start of the run, not now
+  };
+
   /** Forces of the bodies' loads per mass at a time on the active nodes: rho b
    * N_I of P Eq. 15. They do not depend on the step's displacements.
    * Collective. */
   template <int dim>
   LinearAlgebra::distributed::Vector<double>
-  body_force(const MaterialPoints<dim>          &points,
-             const ActiveNodes<dim>             &active,
-             const std::vector<Expression<dim>> &body_forces, // per body
-             const double                        at);
+  body_force(const MaterialPoints<dim>        &points,
+             const ActiveNodes<dim>           &active,
+             const std::vector<BodyLoad<dim>> &body_loads, // per body
+             const double                      at);
 } // namespace Impoint
 
 #endif

@@ -33,9 +33,10 @@ namespace Impoint
     /** @p k: an active cell beyond the material cells. */
     void add(const unsigned int k, CellSystem &system) const;
 
-    /** Lets the matrix of add(), and only that, resist rigid motions, too. A cell
-     * that shares one node with the material turns about it at no cost where
-     * its boundary lets go, and without mass the matrix would be singular. */
+    /** Lets the matrix of add(), and only that, resist rigid motions, too. A
+     * cell that shares one node with the material turns about it at no cost
+     * where its boundary lets go, and without mass the matrix would be
+     * singular. */
     void anchor(CellSystem &system) const;
 
   private:

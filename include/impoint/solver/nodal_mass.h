@@ -1,0 +1,23 @@
+#ifndef impoint_solver_nodal_mass_h
+#define impoint_solver_nodal_mass_h
+
+#include <impoint/grid/active_nodes.h>
+#include <impoint/particles/material_points.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+namespace Impoint
+{
+  /**
+   * Solves M x = b with the consistent mass M_IJ = sum_p m_p N_I N_J of the
+   * active nodes: the velocities whose momenta are @p momenta, which they
+   * replace. Nodes that see next to no mass get none. Collective.
+   */
+  template <int dim>
+  void divide_by_consistent_mass(
+    const ActiveNodes<dim>                     &active,
+    const MaterialPoints<dim>                  &points,
+    LinearAlgebra::distributed::Vector<double> &momenta);
+} // namespace Impoint
+
+#endif

@@ -1,0 +1,111 @@
+#include <impoint/base/on_all_ranks.h>
+#include <impoint/solver/stored_nodes.h>
+
+#include <limits>
+
+namespace Impoint
+{
+  namespace
+  {
+    using PackedCell = CellId::binary_type;
+
+    /** The cells of one rank, and the values at their nodes. */
+    struct PackedNodes
+    {
+      std::vector<unsigned int> cells; // PackedCell's numbers
+      std::vector<unsigned int> n_nodes;
+      std::vector<double>       values;
+
+      void save_or_load(StateArchive &archive)
+      {
+        archive &cells &n_nodes &values;
+      }
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  void store_nodes(const ActiveNodes<dim>                           &active,
+                   const LinearAlgebra::distributed::Vector<double> &vector,
+                   StateArchive                                     &archive)
+  {
+    PackedNodes packed;
+    for (unsigned int k = 0; k < active.n_cells(); ++k)
+      {
+        const PackedCell cell = active.basis()
+                                  .grid()
+                                  .cell(active.cell(k))
+                                  ->id()
+                                  .template to_binary<dim>();
+        packed.cells.insert(packed.cells.end(), cell.begin(), cell.end());
+        packed.n_nodes.push_back(active.nodes(k).size());
+        for (const unsigned int i : active.nodes(k))
+          for (unsigned int d = 0; d < dim; ++d)
+            packed.values.push_back(vector.local_element(i * dim + d));
+      }
+    packed.save_or_load(archive);
+  }
+
+
+
+  template <int dim>
+  void restore_nodes(std::vector<StateArchive>                  &archives,
+                     const OwnCells                             &cells,
+                     const ActiveNodes<dim>                     &active,
+                     LinearAlgebra::distributed::Vector<double> &vector)
+  {
+    // A node's owner may have none of its cells. All who know a value know the
+    // same one, so that it is the largest of all.
+    vector.reinit(active.unknowns());
+    for (unsigned int i = 0; i < active.n_nodes() * dim; ++i)
+      vector.local_element(i) = std::numeric_limits<double>::lowest();
+    on_all_ranks(active.basis().grid().communicator(), [&]() {
+      for (auto &archive : archives)
+        {
+          PackedNodes packed;
+          packed.save_or_load(archive);
+          const double *value = packed.values.data();
+          for (unsigned int i = 0; i < packed.n_nodes.size(); ++i)
+            {
+              PackedCell cell;
+              std::copy_n(packed.cells.begin() + i * cell.size(),
+                          cell.size(),
+                          cell.begin());
+              const auto         found = cells.find(CellId(cell));
+              const unsigned int n     = packed.n_nodes[i] * dim;
+              const unsigned int k     = found == cells.end() ?
+                                           BackgroundGrid<dim>::nowhere :
+                                           active.position(found->second);
+              if (k != BackgroundGrid<dim>::nowhere)
+                {
+                  const auto nodes = active.nodes(k);
+                  if (nodes.size() * dim != n)
+                    throw StateArchive::does_not_fit(
+                      "its cells have other nodes");
+                  for (unsigned int j = 0; j < n; ++j)
+                    vector.local_element(nodes[j / dim] * dim + j % dim) =
+                      value[j];
+                }
+              value += n;
+            }
+        }
+    });
+    vector.compress(VectorOperation::max);
+    vector.update_ghost_values();
+  }
+
+#define IMPOINT_INSTANTIATE(dim)                           \
+  template void store_nodes(                               \
+    const ActiveNodes<dim> &,                              \
+    const LinearAlgebra::distributed::Vector<double> &,    \
+    StateArchive &);                                       \
+  template void restore_nodes(std::vector<StateArchive> &, \
+                              const OwnCells &,            \
+                              const ActiveNodes<dim> &,    \
+                              LinearAlgebra::distributed::Vector<double> &);
+
+  IMPOINT_INSTANTIATE(2)
+  IMPOINT_INSTANTIATE(3)
+#undef IMPOINT_INSTANTIATE
+} // namespace Impoint

@@ -1,0 +1,78 @@
+"""The grid is never reset (total Lagrangian), or is, on quadratic splines.
+
+Arguments: how often the vortex' grid is refined (1). The cantilever of paper P (4.1)
+under its whole weight in 20 steps; the column, for each enforcement at its base; the
+generalised vortex (dynamic).
+"""
+
+import sys
+from math import log2
+
+from driver import expect, run_scene
+
+QUIET = ["Output/Pictures every = 0"]
+REFINEMENTS = int(sys.argv[1]) if len(sys.argv) > 1 else 1
+METHODS = ("penalty", "projected penalty", "augmented Lagrangian",
+           "lagrange multiplier", "implicit boundary", "nitsche")
+
+
+def tip_error(level, settings):
+    h = 0.5 / 2**level
+    summary = run_scene("beyond/cantilever-total-lagrangian.prm", "run", [
+        *QUIET, f"Grid/Refinements = {level}",
+        f"Grid/Shift = {-h / 2}, {-1 - 0.3 * h}", *settings])
+    expect(summary["counts"]["halved steps"] == 0, "a step was halved")
+    return summary["results"]["tip u_y"]["error"]
+
+
+def check_cantilever():
+    for level, bound in enumerate((3e-4, 3e-5)):
+        one, many = (tip_error(level, settings) for settings in (["Time/Step = 1"], []))
+        print(f"cantilever, never reset, h = 2^-{level + 1}: 1 step {one:.2e}, "
+              f"20 steps {many:.2e}", flush=True)
+        expect(max(one, many) <= bound, "cantilever, never reset")
+    error = tip_error(1, ["Grid/Reset = every step",
+                          "Bodies/beam/Points per direction = 3"])
+    print(f"cantilever, reset 20 times, h = 1/4: {error:.2e}")
+    expect(error <= 5e-4, "cantilever, reset")
+
+
+def column_error(cells, settings):
+    """On splines, with a base that cuts the lowest cell in halves."""
+    h = 50 / cells
+    return run_scene("beyond/column-compaction-penalty.prm", "run", [
+        *QUIET, "Grid/Basis = quadratic spline", "Bodies/column/Points per direction = 3",
+        f"Grid/Arguments = 1, {cells + 1} : 0, {-h / 2} : {h}, {50 + h / 2}",
+        f"Bodies/column/Mesh/Arguments = 1, {cells} : 0, 0 : {h}, 50",
+        f"Boundaries/base/Polyline = 0 0; {h} 0",
+        f"Measurements/support/Reference = 0; {40e3 * h}*t",
+        *settings])["results"]["stress"]["value"]
+
+
+def check_column():
+    for method in METHODS:
+        found = [column_error(cells, [f"Boundaries/base/Enforcement = {method}"])
+                 for cells in (8, 16, 32)]
+        print(f"column, {method}, 8, 16, 32 cells: "
+              + ", ".join(f"{error:.4f}" for error in found)
+              + f", rate {log2(found[0] / found[2]) / 2:.2f}", flush=True)
+        expect(found[0] < 0.045 and log2(found[0] / found[2]) / 2 > 1.3, method)
+
+
+def check_vortex():
+    for reset, least in (("never", 2.5), ("every step", 1.8)):
+        found = []
+        for level in range(REFINEMENTS + 1):
+            results = run_scene("beyond/generalised-vortex.prm", "vortex", [
+                *QUIET, f"Grid/Refinements = {level}", f"Grid/Reset = {reset}"])["results"]
+            found.append(results["displacement"]["value"])
+            print(f"vortex, reset {reset}, h = 2^-{level + 3}: {found[-1]:.3e}, energy "
+                  f"{results['energy total']['error']:.2e}", flush=True)
+        rate = log2(found[-2] / found[-1])
+        print(f"vortex, reset {reset}: rate {rate:.2f}")
+        expect(rate >= least, f"vortex, reset {reset}")
+
+
+check_cantilever()
+check_column()
+check_vortex()
