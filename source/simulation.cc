@@ -1,7 +1,6 @@
 #include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/base/scoped_seconds.h>
-#include <impoint/boundary_forces.h>
 #include <impoint/enforcement/proximity.h>
 #include <impoint/setup.h>
 #include <impoint/setup_checks.h>
@@ -371,28 +370,6 @@ namespace Impoint
       measurement->end_step(after);
     record();
     is_whole = true;
-  }
-
-
-
-  /** What the boundaries did in the step: in the order of the scene, summed
-   * over the ranks. */
-  template <int dim>
-  void Simulation<dim>::sum_forces()
-  {
-    const auto held = conforming_forces(*system, conforming, active, u);
-    const auto nonconforming =
-      nonconforming_forces(*system, methods, active, u);
-    unsigned int next_held = 0, next_nonconforming = 0;
-    forces.clear();
-    for (const auto &boundary : scene.boundaries)
-      {
-        forces.push_back(boundary.kind == "conforming" ?
-                           held[next_held++] :
-                           nonconforming[next_nonconforming++]);
-        forces.back().force  = Utilities::MPI::sum(forces.back().force, comm);
-        forces.back().moment = Utilities::MPI::sum(forces.back().moment, comm);
-      }
   }
 
 

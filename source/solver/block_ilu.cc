@@ -142,14 +142,12 @@ namespace Impoint
 
   // Preconditioned from the right: the residual is the true one.
   template <int dim>
-  IterationResult
-  stabilised_biconjugate_gradients(const BlockMatrix<dim>    &matrix,
-                                   const Preconditioner      &preconditioner,
-                                   const std::vector<double> &b,
-                                   const IterationControl    &control,
-                                   std::vector<double>       &x)
+  IterationResult BlockIlu<dim>::solve(const BlockMatrix<dim>    &matrix,
+                                       const std::vector<double> &b,
+                                       const double               tolerance,
+                                       std::vector<double>       &x) const
   {
-    constexpr unsigned int    probation = 10; // iterations for the first digit
+    constexpr unsigned int    most = 30, probation = 10; // for the first digit
     IterationResult           result;
     const std::size_t         n = b.size();
     std::vector<double>       r = b, p(n, 0.), v(n, 0.), p_hat, r_hat, t(n);
@@ -158,19 +156,19 @@ namespace Impoint
     x.assign(n, 0.);
     result.converged = size == 0;
     double rho = 1, alpha = 1, omega = 1;
-    while (!result.converged && result.iterations < control.max_iterations)
+    while (!result.converged && result.iterations < most)
       {
         const double next = dot_product(shadow, r);
         const double beta = next / rho * (alpha / omega);
         rho               = next;
         for (std::size_t i = 0; i < n; ++i)
           p[i] = r[i] + beta * (p[i] - omega * v[i]);
-        preconditioner.vmult(p, p_hat);
+        vmult(p, p_hat);
         matrix.vmult(p_hat.data(), v.data());
         alpha = rho / dot_product(shadow, v);
         for (std::size_t i = 0; i < n; ++i)
           r[i] -= alpha * v[i];
-        preconditioner.vmult(r, r_hat);
+        vmult(r, r_hat);
         matrix.vmult(r_hat.data(), t.data());
         const double square = dot_product(t, t);
         omega               = square > 0 ? dot_product(t, r) / square : 0.;
@@ -181,26 +179,15 @@ namespace Impoint
           }
         ++result.iterations;
         result.reduction = std::sqrt(dot_product(r, r)) / size;
-        result.converged = result.reduction <= control.tolerance;
+        result.converged = result.reduction <= tolerance;
         if (!std::isfinite(result.reduction) ||
             (omega == 0 && !result.converged) ||
-            (control.give_up_early && result.iterations == probation &&
-             result.reduction > 0.1))
+            (result.iterations == probation && result.reduction > 0.1))
           break;
       }
     return result;
   }
 
-#define IMPOINT_INSTANTIATE(dim)                                  \
-  template class BlockIlu<dim>;                                   \
-  template IterationResult stabilised_biconjugate_gradients<dim>( \
-    const BlockMatrix<dim> &,                                     \
-    const Preconditioner &,                                       \
-    const std::vector<double> &,                                  \
-    const IterationControl &,                                     \
-    std::vector<double> &);
-
-  IMPOINT_INSTANTIATE(2)
-  IMPOINT_INSTANTIATE(3)
-#undef IMPOINT_INSTANTIATE
+  template class BlockIlu<2>;
+  template class BlockIlu<3>;
 } // namespace Impoint

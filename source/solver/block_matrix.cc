@@ -4,6 +4,7 @@
 #include <deal.II/base/types.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace Impoint
 {
@@ -25,6 +26,15 @@ namespace Impoint
                 pattern->row_start[row + 1],
                 x,
                 y + static_cast<std::size_t>(row) * dim);
+  }
+
+  template <int dim>
+  double BlockMatrix<dim>::largest_entry() const
+  {
+    double largest = 0;
+    for (const double entry : values)
+      largest = std::max(largest, std::abs(entry));
+    return largest;
   }
 
   template <int dim>

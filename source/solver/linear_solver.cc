@@ -1,6 +1,5 @@
 #include <impoint/base/exceptions.h>
 #include <impoint/base/on_all_ranks.h>
-#include <impoint/base/parameter_file.h>
 #include <impoint/solver/band_preconditioner.h>
 #include <impoint/solver/block_ilu.h>
 #include <impoint/solver/direct_solver.h>
@@ -9,7 +8,6 @@
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/patterns.h>
 
 #include <algorithm>
 #include <optional>
@@ -48,53 +46,7 @@ namespace Impoint
     /** After an old factor has failed, that many matrices are factorised at
      * once before one is tried again; doubled by every further failure. */
     constexpr unsigned int longest_distrust = 8;
-
-    /** What is not symmetric iterates that often before it is factorised: so
-     * many iterations cost a third of it. */
-    constexpr unsigned int most_unsymmetric_iterations = 30;
   } // namespace
-
-  void LinearSolverParameters::declare(ParameterFile &file)
-  {
-    EntryHandler &prm = file.handler();
-    prm.enter_subsection("Linear solver");
-    prm.add_parameter("Kind",
-                      kind,
-                      "A direct factorisation, conjugate gradients with the "
-                      "band preconditioner, or the choice by dimension and "
-                      "number of unknowns. Systems that are not symmetric "
-                      "(friction): unless direct, biconjugate gradients with "
-                      "incomplete factors, and a factorisation where these do "
-                      "not serve.",
-                      Patterns::Selection("automatic|direct|iterative"));
-    prm.add_parameter("Tolerance",
-                      tolerance,
-                      "Reduction of the preconditioned residual [-].",
-                      Patterns::Double(1e-15, 0.1));
-    prm.add_parameter("Maximum iterations",
-                      max_iterations,
-                      "Of conjugate gradients; a solve that needs more fails "
-                      "the step.",
-                      Patterns::Integer(1));
-    prm.add_parameter("Moderate enforcement",
-                      moderate,
-                      "Stiffness of boundary conditions in the V-cycle of the "
-                      "preconditioner [E/h].",
-                      Patterns::Double(1e-3));
-    prm.add_parameter(
-      "Sliver",
-      sliver,
-      "Nodes with a diagonal stiffness below this part of the "
-      "median are solved for exactly [-]; with splines, whose outer "
-      "functions are small by nature, below ten times that.",
-      Patterns::Double(0., 1.));
-    prm.add_parameter("Renew iterations",
-                      renew_iterations,
-                      "A preconditioner made for an earlier matrix is kept "
-                      "while it needs no more iterations than this.",
-                      Patterns::Integer(0));
-    prm.leave_subsection();
-  }
 
   template <int dim>
   std::size_t LinearProblem<dim>::n_unknowns() const
@@ -281,12 +233,7 @@ namespace Impoint
           return learn(false);
         incomplete_is_current = true;
       }
-    IterationControl control;
-    control.tolerance      = tolerance;
-    control.max_iterations = most_unsymmetric_iterations;
-    control.give_up_early  = true;
-    const auto result      = stabilised_biconjugate_gradients(
-      problem.matrix, incomplete, b, control, x);
+    const auto result = incomplete.solve(problem.matrix, b, tolerance, x);
     counters.linear_iterations += result.iterations;
     return learn(result.converged);
   }

@@ -5,30 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace Impoint
 {
-  namespace
-  {
-    // Forces below this part of E h^(dim-1) are none.
-    constexpr double smallest_force = 1e-13;
-
-    // Of one operation, with what sums of a few dozen terms make of it.
-    constexpr double machine_precision = 1e-15;
-
-    template <int dim>
-    double largest_entry(const BlockMatrix<dim> &matrix)
-    {
-      double largest = 0;
-      for (const double entry : matrix.values)
-        largest = std::max(largest, std::abs(entry));
-      return largest;
-    }
-  } // namespace
-
-
-
   template <int dim>
   NonlinearSystem<dim>::NonlinearSystem(
     const ActiveNodes<dim>             &active,
@@ -146,67 +125,6 @@ namespace Impoint
 
 
   template <int dim>
-  bool NonlinearSystem<dim>::is_linear() const
-  {
-    bool linear = points.small_strain() && points.constant_tangent();
-    for (const auto &method : methods)
-      linear &= !method->is_active() || method->is_linear();
-    return linear;
-  }
-
-
-
-  template <int dim>
-  bool NonlinearSystem<dim>::is_augmented() const
-  {
-    bool augmented = false;
-    for (const auto &method : methods)
-      augmented |= method->is_active() && method->augmented();
-    return Utilities::MPI::max(int(augmented),
-                               active.basis().grid().communicator());
-  }
-
-
-
-  template <int dim>
-  bool NonlinearSystem<dim>::is_stiff() const
-  {
-    constexpr double harmless = 3e5; // in units of E h^(dim-2)
-    return Utilities::MPI::max(largest_entry(problem.matrix),
-                               active.basis().grid().communicator()) >
-           harmless * force_scale_of_strain() /
-             active.basis().grid().smallest_size();
-  }
-
-
-
-  template <int dim>
-  bool NonlinearSystem<dim>::moderate_wanted() const
-  {
-    return problem.symmetric && solver.iterative(active, problem);
-  }
-
-
-
-  /** E h^(dim-1): the force of a strain of one. */
-  template <int dim>
-  double NonlinearSystem<dim>::force_scale_of_strain() const
-  {
-    const double h = active.basis().grid().smallest_size();
-    return points.young() * Utilities::fixed_power<dim - 1>(h);
-  }
-
-
-
-  template <int dim>
-  double NonlinearSystem<dim>::force_scale() const
-  {
-    return std::max(scale, smallest_force * force_scale_of_strain());
-  }
-
-
-
-  template <int dim>
   double NonlinearSystem<dim>::evaluate(const Vector &u,
                                         const bool    tangent_wanted)
   {
@@ -226,20 +144,6 @@ namespace Impoint
     rest = full_rest;
     cut(held, false, rest);
     return rest.l2_norm() / force_scale();
-  }
-
-
-
-  template <int dim>
-  double NonlinearSystem<dim>::round_off(const Vector &u) const
-  {
-    const double stiffest =
-      Utilities::MPI::max(largest_entry(problem.matrix),
-                          active.basis().grid().communicator());
-    const double strain_part =
-      points.small_strain() ? 0. : force_scale_of_strain();
-    return machine_precision * std::sqrt(double(u.size())) *
-           (stiffest * u.linfty_norm() + strain_part) / force_scale();
   }
 
 
@@ -298,7 +202,7 @@ namespace Impoint
       // the same on all ranks: a node's owner may have none of its cells
       eliminate(held,
                 active.n_owned_nodes(),
-                Utilities::MPI::max(largest_entry(matrix), comm),
+                Utilities::MPI::max(matrix.largest_entry(), comm),
                 matrix);
     };
     if (!new_matrix)
@@ -392,19 +296,6 @@ namespace Impoint
   }
 
 
-
-  template <int dim>
-  double NonlinearSystem<dim>::linear_residual(const Vector &delta) const
-  {
-    // The matrix is without held unknowns; so is the residual.
-    Vector product(active.unknowns());
-    problem.matrix.vmult(delta.begin(), product.begin());
-    product.compress(VectorOperation::add);
-    product += rest;
-    product += multiplier_forces;
-    cut(held, false, product);
-    return product.l2_norm() / force_scale();
-  }
 
   template class NonlinearSystem<2>;
   template class NonlinearSystem<3>;

@@ -20,23 +20,20 @@ namespace Impoint
     void vmult(const std::vector<double> &r,
                std::vector<double>       &z) const override;
 
+    /**
+     * Solves A x = b from x = 0 by stabilised biconjugate gradients (H. van der
+     * Vorst, 1992), to a residual of @p tolerance relative to b. Gives up
+     * where they break down or a factorisation would be cheaper.
+     */
+    IterationResult solve(const BlockMatrix<dim>    &matrix,
+                          const std::vector<double> &b,
+                          const double               tolerance,
+                          std::vector<double>       &x) const;
+
   private:
     BlockMatrix<dim>         factors; // on the diagonal: inverses
     std::vector<std::size_t> diagonal;
   };
-
-  /**
-   * Solves A x = b from x = 0 for a matrix that is not symmetric, by stabilised
-   * biconjugate gradients (H. van der Vorst, 1992). Gives up where they break
-   * down.
-   */
-  template <int dim>
-  IterationResult
-  stabilised_biconjugate_gradients(const BlockMatrix<dim>    &matrix,
-                                   const Preconditioner      &preconditioner,
-                                   const std::vector<double> &b,
-                                   const IterationControl    &control,
-                                   std::vector<double>       &x);
 } // namespace Impoint
 
 #endif

@@ -18,6 +18,8 @@ namespace Impoint
     void reinit(const BlockPattern &pattern);     // zero
     void vmult(const double *x, double *y) const; // y = A x
 
+    double largest_entry() const; // in absolute value
+
     const BlockPattern *pattern = nullptr;
     std::vector<double> values;
   };
