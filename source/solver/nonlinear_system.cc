@@ -253,12 +253,13 @@ namespace Impoint
 
 
 
-  /** Newton's iteration takes back what is left of a linear system. */
+  /** Newton's iteration takes back what is left of a linear system, if there
+   * is another one. */
   template <int dim>
   double NonlinearSystem<dim>::correction_looser() const
   {
     constexpr double looser = 1e5;
-    return problem.symmetric || is_augmented() ? 1. : looser;
+    return problem.symmetric || is_augmented() || is_linear() ? 1. : looser;
   }
 
 
