@@ -14,7 +14,10 @@ namespace Impoint
     : active(active)
     , points(points)
     , methods(methods)
-    , empty_cells(active, points.young(), points.small_strain())
+    // Steps in time turn them little, and Newton finds linear ones sooner.
+    , empty_cells(active,
+                  points.young(),
+                  points.small_strain() || points.carried().dynamic)
     , hourglass(active, points.young())
     , consistent_mass(points)
   {}

@@ -220,7 +220,8 @@ namespace Impoint
     const double               tolerance,
     std::vector<double>       &x)
   {
-    if (parameters.kind == "direct")
+    // All digits, of one solve without another: a factor has more of them.
+    if (parameters.kind == "direct" || tolerance <= parameters.tolerance)
       return false;
     if (!incomplete_is_current)
       {

@@ -65,7 +65,9 @@ def prescribed_stress():
 def drum():
     summary = run_scene("penalty/4.4-rotating-drum.prm", "drum",
                         ["Output/Pictures every = 0", "Time/End time = 0.8"])
-    expect(summary["counts"]["halved steps"] == 0, "drum: steps were lost")
+    # Where points begin and cease to touch in turn, a step is halved.
+    expect(summary["counts"]["halved steps"] < 0.02 * summary["counts"]["steps"],
+           "drum: steps were lost")
     rows = rows_of("drum")
     depth = max(row["outside depth"] for row in rows)
     late = [row["repose"] for row in rows if row["time"] > 0.6]
