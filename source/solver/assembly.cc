@@ -14,7 +14,6 @@ namespace Impoint
     : active(active)
     , points(points)
     , methods(methods)
-    // Steps in time turn them little, and Newton finds linear ones sooner.
     , empty_cells(active,
                   points.young(),
                   points.small_strain() || points.carried().dynamic)

@@ -9,10 +9,10 @@ namespace Impoint
   template <int dim>
   EmptyCells<dim>::EmptyCells(const ActiveNodes<dim> &active,
                               const double            young,
-                              const bool              small_strain)
+                              const bool              linear)
     : active(active)
     , young(young)
-    , small_strain(small_strain)
+    , linear(linear)
   {}
 
 
@@ -70,7 +70,7 @@ namespace Impoint
         F[i] += system.u[a * dim + i] * gradients.of_nodes[a];
     Tensor<2, dim>       strain = 0.5 * (F + transpose(F));
     const Tensor<2, dim> one    = unit_symmetric_tensor<dim>();
-    if (small_strain)
+    if (linear)
       F = one;
     else
       {
@@ -97,7 +97,7 @@ namespace Impoint
           const Tensor<1, dim> &g_a = gradients.of_nodes[a],
                                &g_b = gradients.of_nodes[b];
           const double dot          = g_a * g_b,
-                       geometric    = small_strain ? 0. : g_a * (S * g_b);
+                       geometric    = linear ? 0. : g_a * (S * g_b);
           double *block             = system.matrix + (a * n + b) * dim * dim;
           for (unsigned int i = 0; i < dim; ++i)
             {

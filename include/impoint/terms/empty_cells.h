@@ -21,11 +21,12 @@ namespace Impoint
   class EmptyCells
   {
   public:
-    /** @p young: Young's modulus of the stiffest material [Pa]. @p
-     * small_strain: whether to be linear. */
+    /** @p young: Young's modulus of the stiffest material [Pa]. @p linear: for
+     * small strains, and in dynamics, where a step turns cells little and
+     * Newton's method finds its way sooner without their large strains. */
     EmptyCells(const ActiveNodes<dim> &active,
                const double            young,
-               const bool              small_strain);
+               const bool              linear);
 
     /** After the set of active cells changed. */
     void reinit();
@@ -53,7 +54,7 @@ namespace Impoint
 
     const ActiveNodes<dim>             &active;
     double                              young;
-    bool                                small_strain;
+    bool                                linear;
     std::vector<std::vector<Gradients>> points; // per empty cell
   };
 } // namespace Impoint
