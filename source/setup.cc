@@ -194,6 +194,8 @@ namespace Impoint
     CarriedState                                           carried;
     carried.dynamic    = scene.time.is_dynamic();
     carried.keeps_grid = scene.grid.is_kept();
+    if (dim == 2)
+      carried.thickness = scene.bodies.front().thickness;
     for (const auto &body : scene.bodies)
       {
         materials.push_back(
@@ -242,7 +244,13 @@ namespace Impoint
                                "points of the body.");
             }
         });
-        first_number += Utilities::MPI::sum(seeds.size(), comm);
+        const auto n_seeds = Utilities::MPI::sum(seeds.size(), comm);
+        if (n_seeds == 0)
+          throw InputError("body '" + body.name + "' has no points",
+                           "section '" + body.section + "'",
+                           "Let its shape and the grid overlap: the grid must "
+                           "hold the whole body.");
+        first_number += n_seeds;
       }
     points->insert(particles);
     return points;

@@ -64,7 +64,7 @@ namespace Impoint
       std::make_unique<InternalForce<dim>>(*points, &end_states));
     if (scene.grid.ghost_factor() > 0)
       system->add_ghost_penalty(scene.grid.ghost_factor(),
-                                dim == 2 ? scene.bodies.front().thickness : 1.);
+                                points->carried().thickness);
     newton = std::make_unique<Newton<dim>>(scene.newton, *system, counters);
     for (const auto &measurement : scene.measurements)
       measurements.push_back(Measurements::create<dim>(file, measurement));

@@ -169,7 +169,7 @@ namespace Impoint
         particles.tag(method->particles().name());
         store_particles(method->particles(), grid, particles);
       }
-    if (scene.grid.is_kept() && scene.time.is_dynamic())
+    if (scene.grid.is_kept() && scene.time.is_dynamic() && counters.steps > 0)
       for (Vector *vector : inertia.carried())
         store_nodes(active, *vector, particles);
     std::string run = of_run.bytes(), rest = particles.bytes();
@@ -209,7 +209,8 @@ namespace Impoint
           archive.tag(method->particles().name());
         restore_particles(particles, cells, comm, method->particles());
       }
-    if (scene.grid.is_kept() && scene.time.is_dynamic())
+    // A run that failed in its first step has stored none.
+    if (scene.grid.is_kept() && scene.time.is_dynamic() && counters.steps > 0)
       {
         activate(time, time + step_size.size);
         inertia.project(active, *points, step_size.size);

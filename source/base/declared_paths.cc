@@ -97,7 +97,7 @@ namespace Impoint
     if (std::find(entries.begin(), entries.end(), list) != entries.end() &&
         Words::nearest(name, siblings).empty())
       return "Add '" + name + "' to " + Words::entry(list) +
-             ", or take the section away.";
+             " (names are separated by commas), or take the section away.";
     if (siblings.empty())
       return "Take it away: there are no sections here.";
     return Words::suggestion(name, siblings, "The sections here are");

@@ -236,7 +236,7 @@ namespace Impoint
     // is changed in one line.
     refuse(conforming || traction, {"Releasing"}, kind);
     refuse(constraint != "slip" || conforming, {"Friction coefficient"}, kind);
-    refuse(enforcement == "implicit boundary",
+    refuse(enforcement == "implicit boundary" || enforcement == "nitsche",
            {"Releasing", "Friction coefficient"},
            "'Enforcement' is '" + enforcement + "', which always holds");
     refuse(constraint != "slip" || conforming, {"Normals"}, kind);

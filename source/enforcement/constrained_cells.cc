@@ -20,6 +20,26 @@ namespace Impoint
 
 
 
+    namespace
+    {
+      /** Not those of hanging nodes, smooth or higher functions. */
+      template <int dim>
+      bool nodes_are_vertices(const Basis<dim> &basis, const unsigned int cell)
+      {
+        const auto nodes    = basis.nodes(cell);
+        const auto vertices = basis.grid().vertices(cell);
+        if (nodes.size() != vertices.size())
+          return false;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          if (basis.point(nodes[a]).distance(vertices[a]) >
+              1e-8 * basis.grid().size(cell))
+            return false;
+        return true;
+      }
+    } // namespace
+
+
+
     template <int dim>
     typename ConstrainedCells<dim>::Cell
     ConstrainedCells<dim>::describe(const BoundaryParticles<dim> &boundary,
@@ -68,8 +88,7 @@ namespace Impoint
       std::vector<Cell> own;
       for (const auto &range : boundary.ranges())
         if (active.position(range.cell) != BackgroundGrid<dim>::nowhere &&
-            basis.n_nodes_of(range.cell) ==
-              basis.grid().vertices(range.cell).size())
+            nodes_are_vertices(basis, range.cell))
           own.push_back(
             describe(boundary, &range - boundary.ranges().data(), basis));
       for (const auto &part :

@@ -53,7 +53,9 @@ namespace Impoint
     {
       const double h = this->current.active->basis().grid().size(
         this->boundary->ranges()[r].cell);
-      return gamma * std::max(1., Utilities::fixed_power<dim - 1>(h) / area);
+      return gamma * std::max(1.,
+                              this->boundary->thickness() *
+                                Utilities::fixed_power<dim - 1>(h) / area);
     }
 
 

@@ -1,3 +1,4 @@
+#include <impoint/base/exceptions.h>
 #include <impoint/enforcement/nitsche.h>
 
 #include <algorithm>
@@ -167,10 +168,11 @@ namespace Impoint
                 this->boundary->vector(b, slots.normal);
               const Tensor<1, dim> traction =
                 condition.closed.stress * condition.normal;
-              force = traction - condition.stiffness * condition.gap;
-              if (slip)
-                force = (force * normal) * normal;
-              force *= area;
+              const Tensor<1, dim> pull =
+                condition.stiffness * condition.gap - traction;
+              // minus what the residual holds, whatever the nodes' normals are
+              for (unsigned int a = 0; a < n; ++a)
+                force -= area * (transpose(condition.share[a]) * pull);
               gap = condition.gap;
               if (slip)
                 {
@@ -206,15 +208,32 @@ namespace Impoint
       const auto        &range = this->boundary->ranges()[r];
       const unsigned int n =
         this->current.active->basis().n_nodes_of(range.cell);
-      double    new_history[64];
+      double    new_history[Materials::max_history];
       Condition condition;
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
           deform(b, n, u, condition);
-          Side &as_is = condition.as_is;
-          this->current.points->respond(
-            material(b), false, as_is.deformation, as_is.response, new_history);
-          double *state = this->boundary->data(b);
+          Side         &as_is     = condition.as_is;
+          double       *state     = this->boundary->data(b);
+          const auto    n_history = this->boundary->carried().n_history;
+          const double *old_history =
+            n_history > 0 ? state + slots.history : new_history;
+          std::copy(old_history, old_history + n_history, new_history);
+          try
+            {
+              this->current.points->respond(material(b),
+                                            false,
+                                            as_is.deformation,
+                                            as_is.response,
+                                            new_history);
+            }
+          catch (const StepFailed &)
+            {
+              // Newton's method had an answer wherever the condition acts;
+              // where it doesn't, the stress is that of the last answer.
+              Assert(!this->is_active(), ExcInternalError());
+              continue;
+            }
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int j = 0; j < dim; ++j)
               state[slots.F + i * dim + j] = as_is.deformation.F[i][j];
@@ -223,9 +242,7 @@ namespace Impoint
                     state + slots.stress);
           if (dim == 2)
             state[slots.stress + Voigt<dim>::n] = as_is.response.stress_zz;
-          if (const unsigned int n_history =
-                this->boundary->carried().n_history;
-              n_history > 0)
+          if (n_history > 0)
             std::copy(new_history,
                       new_history + n_history,
                       state + slots.history);

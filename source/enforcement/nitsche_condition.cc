@@ -187,7 +187,7 @@ namespace Impoint
       closed.deformation.grad_increment -=
         condition.finite ? closing * invert(deformation_gradient(b)) : closing;
 
-      double new_history[64];
+      double new_history[Materials::max_history];
       for (Side *side : {&as_is, &closed})
         {
           this->current.points->respond(material(b),

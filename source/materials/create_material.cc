@@ -8,6 +8,7 @@
 #include <impoint/materials/st_venant_kirchhoff.h>
 #include <impoint/materials/von_mises.h>
 
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -147,6 +148,7 @@ namespace Impoint
         const double dilation = number(file, section + "/Dilation angle");
         if (model == "Mohr-Coulomb")
           return std::make_unique<MohrCoulomb>(cohesion, friction, dilation);
+        Assert(model == "Drucker-Prager", ExcNotImplemented());
         return std::make_unique<DruckerPrager>(cohesion, friction, dilation);
       }
 

@@ -74,7 +74,7 @@ namespace Impoint
     declare_shape(prm);
     prm.add_parameter("Density",
                       density,
-                      "Mass per volume [kg/m3].",
+                      "Mass per volume [kg/m3]; must be set.",
                       Patterns::Double(0));
     prm.add_parameter("Thickness",
                       thickness,

@@ -37,6 +37,10 @@ namespace Impoint
     , carried_state(carried)
     , materials(std::move(materials))
   {
+    AssertThrow(carried.n_history <= Materials::max_history,
+                ExcIndexRange(carried.n_history,
+                              0,
+                              Materials::max_history + 1));
     for (const auto &material : this->materials)
       {
         all_small_strain &= material->small_strain();

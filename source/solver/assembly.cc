@@ -15,9 +15,9 @@ namespace Impoint
     , points(points)
     , methods(methods)
     , empty_cells(active,
-                  points.young(),
+                  points.young() * points.carried().thickness,
                   points.small_strain() || points.carried().dynamic)
-    , hourglass(active, points.young())
+    , hourglass(active, points.young() * points.carried().thickness)
     , consistent_mass(points)
   {}
 
@@ -44,9 +44,8 @@ namespace Impoint
   template <int dim>
   std::size_t Assembly<dim>::find_starved_cells()
   {
-    // Only linear functions: splines have about one function a cell, which
-    // the points of several cells see, and Hourglass would not leave quadratic
-    // fields alone.
+    // Only linear functions: splines have about one function a cell, seen from
+    // several cells, and Hourglass would not leave quadratic fields alone.
     const bool                linear  = active.basis().degree() == 1;
     const unsigned int        n_rigid = dim * (dim + 1) / 2;
     std::vector<unsigned int> starved;
@@ -176,7 +175,8 @@ namespace Impoint
                                     system);
               }
           }
-        else if (!ghost_penalty || !ghost_penalty->holds(k))
+        else if (part == Part::constraints || !ghost_penalty ||
+                 !ghost_penalty->holds(k))
           {
             empty_cells.add(k, system);
             if (tangent_wanted && inertia != nullptr && in_contact[k])

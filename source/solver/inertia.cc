@@ -235,6 +235,25 @@ namespace Impoint
 
 
 
+  namespace
+  {
+    template <typename Vector>
+    void take_layout(
+      const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
+      Vector                                                   &vector)
+    {
+      if (vector.get_partitioner() == layout)
+        return;
+      Vector moved(layout);
+      AssertDimension(moved.locally_owned_size(), vector.locally_owned_size());
+      std::copy(vector.begin(), vector.end(), moved.begin());
+      moved.update_ghost_values();
+      vector.swap(moved);
+    }
+  } // namespace
+
+
+
   template <int dim>
   bool Inertia<dim>::begin_step(const ActiveNodes<dim>    &active,
                                 const MaterialPoints<dim> &points,
@@ -242,7 +261,13 @@ namespace Impoint
   {
     dt = time_step;
     if (has_carried)
-      return false;
+      {
+        // The owned nodes of a kept grid stay; ghosts come and go with links.
+        take_layout(active.unknowns(), velocities);
+        take_layout(active.unknowns(), accelerations);
+        take_layout(active.scalars(), masses);
+        return false;
+      }
     project(active, points, time_step);
     return true;
   }

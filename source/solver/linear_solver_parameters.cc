@@ -25,11 +25,6 @@ namespace Impoint
                       "Of conjugate gradients; a solve that needs more fails "
                       "the step.",
                       Patterns::Integer(1));
-    prm.add_parameter("Moderate enforcement",
-                      moderate,
-                      "Stiffness of boundary conditions in the V-cycle of the "
-                      "preconditioner [E/h].",
-                      Patterns::Double(1e-3));
     prm.add_parameter(
       "Sliver",
       sliver,

@@ -96,9 +96,9 @@ namespace Impoint
     for (unsigned int i = 0; square > tolerance * tolerance * first; ++i)
       {
         if (i == max_iterations)
-          throw StepFailed("the initial velocities of the nodes were not found "
-                           "in " +
-                           std::to_string(i) + " iterations");
+          throw StepFailed(
+            "velocities projected to the nodes were not found in " +
+            std::to_string(i) + " iterations");
         direction.update_ghost_values();
         multiply(active, points, direction, product);
         direction.zero_out_ghost_values();

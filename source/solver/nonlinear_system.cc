@@ -131,6 +131,12 @@ namespace Impoint
     ScopedSeconds timer(seconds.assembly);
     ++counters.residuals;
     counters.tangents += tangent_wanted;
+    if (tangent_wanted && indefinite)
+      {
+        // The new one may well be definite.
+        problem.symmetric = new_problem = true;
+        indefinite                      = false;
+      }
     new_matrix |= tangent_wanted;
     scale = assembly.assemble(u,
                               Assembly<dim>::Part::all,
@@ -208,11 +214,6 @@ namespace Impoint
     if (!new_matrix)
       return;
     new_matrix = false;
-    if (indefinite)
-      {
-        problem.symmetric = new_problem = true;
-        indefinite                      = false;
-      }
     if (has_held_nodes())
       {
         cut_nodes(problem.matrix);

@@ -62,12 +62,13 @@ namespace Impoint
 
 
 
-  /** E h^(dim-1): the force of a strain of one. */
+  /** E h^(dim-1), in 2D times the thickness: the force of a strain of one. */
   template <int dim>
   double NonlinearSystem<dim>::force_scale_of_strain() const
   {
     const double h = active.basis().grid().smallest_size();
-    return points.young() * Utilities::fixed_power<dim - 1>(h);
+    return points.young() * points.carried().thickness *
+           Utilities::fixed_power<dim - 1>(h);
   }
 
 

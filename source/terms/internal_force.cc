@@ -195,7 +195,7 @@ namespace Impoint
                                    Materials::Deformation<dim> &deformation,
                                    Materials::Response<dim>    &response) const
   {
-    double        unused[64];
+    double        unused[Materials::max_history];
     double *const end = end_states != nullptr ? end_states->data(p) : nullptr;
     points.respond(p,
                    grad_u,

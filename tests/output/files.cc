@@ -72,7 +72,7 @@ void test_summary(const OutputFolder &folder)
   record.message    = "Step 3: \"det F\" <= 0";
   record.boundaries = {{"clamp", "projected penalty"}};
   record.results    = {{"tip", -2, -2.5}, {"rest", 3, 0}, {"free", 4}};
-  record.counters   = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
+  record.counters   = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   record.seconds    = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   record.points     = 14;
   write_summary(record, folder);

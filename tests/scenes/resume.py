@@ -105,12 +105,13 @@ def kill_and_resume(title, scene, ranks, n_kills, others):
     finish([*scene, "--output", whole, "--overwrite"], ranks)
     duration = time.monotonic() - start
 
-    # The first run has to get as far as a checkpoint.
+    # The first run has to get as far as a checkpoint, and not to its end.
     n, seconds = 0, 0.4 * duration
     while not has_checkpoint(killed) or not n:
-        n += kill_after(seconds, [*scene, "--output", killed, "--overwrite"],
-                        ranks)
-        seconds *= 1.3
+        was_killed = kill_after(
+            seconds, [*scene, "--output", killed, "--overwrite"], ranks)
+        n += was_killed
+        seconds *= 1.3 if was_killed else 0.6
     while n < n_kills and kill_after(RANDOM.uniform(0.2, 0.7) * duration,
                                      ["--resume", killed], ranks):
         n += 1
@@ -125,7 +126,7 @@ def kill_and_resume(title, scene, ranks, n_kills, others):
     ends = [summary_of(folder) for folder in (whole, killed)]
     for part in ("results", "counts"):
         expect(ends[0][part] == ends[1][part], f"{title}: other {part}")
-    print(f"{title}, {ranks} ranks, killed {n} times: same digits")
+    print(f"{title}, {ranks} ranks, killed {n} times: same digits", flush=True)
 
 
 def main():

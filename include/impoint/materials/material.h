@@ -51,6 +51,9 @@ namespace Impoint
       double           old_stress_zz = 0;
     };
 
+    /** Doubles that a point may remember. */
+    constexpr unsigned int max_history = 64;
+
     /**
      * A constitutive model. A new one is one file and one line in
      * create_material().
@@ -88,7 +91,7 @@ namespace Impoint
         return false;
       }
 
-      /** Number of doubles of history a point carries. */
+      /** Number of doubles of history a point carries, at most max_history. */
       virtual unsigned int n_history() const
       {
         return 0;

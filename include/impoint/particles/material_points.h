@@ -15,6 +15,7 @@ namespace Impoint
     bool         dynamic        = false; // velocity, acceleration
     bool         initial_stress = false;
     unsigned int n_history      = 0;
+    double       thickness      = 1;     // of the bodies in 2D [m]
     bool         keeps_grid     = false; // supports are those of the start
   };
 

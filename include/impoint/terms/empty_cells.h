@@ -21,7 +21,8 @@ namespace Impoint
   class EmptyCells
   {
   public:
-    /** @p young: Young's modulus of the stiffest material [Pa]. @p linear: for
+    /** @p young: Young's modulus of the stiffest material [Pa], in 2D times the
+     * thickness. @p linear: for
      * small strains, and in dynamics, where a step turns cells little and
      * Newton's method finds its way sooner without their large strains. */
     EmptyCells(const ActiveNodes<dim> &active,

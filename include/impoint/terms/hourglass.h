@@ -21,7 +21,8 @@ namespace Impoint
   class Hourglass
   {
   public:
-    /** @p young: Young's modulus of the stiffest material [Pa]. */
+    /** @p young: Young's modulus of the stiffest material [Pa], in 2D times the
+     * thickness. */
     Hourglass(const ActiveNodes<dim> &active, const double young);
 
     /** @p starved: the places of the cells with too few points among the
