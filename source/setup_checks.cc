@@ -140,8 +140,8 @@ namespace Impoint
     {
       if (area.all == 0)
         return "No material is within 2 h of boundary '" + parameters.name +
-               "': whether its normals point out of the material cannot be "
-               "checked.";
+               "': it holds nothing until some comes there, and whether its "
+               "normals point out of the material cannot be checked.";
       if (area.wrong <= 0.5 * area.all)
         return "";
       const std::string wrong = "the normals of boundary '" + parameters.name +
