@@ -136,12 +136,14 @@ namespace Impoint
       }
     else
       {
+        ScopedSeconds timer(seconds.output);
         folder.create();
         std::ostringstream parameters;
         file.print_used(parameters);
         folder.write("parameters.prm", parameters.str());
       }
     activate(time, time + step_size.size);
+    ScopedSeconds timer(seconds.output);
     fill_record();
     terminal.header(run_record);
     if (resumed)

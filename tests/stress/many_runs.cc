@@ -3,8 +3,9 @@
 //   many_runs FOLDER
 //
 // reads lines "scene.prm<TAB>Section/Entry = value<TAB>..." and answers each
-// with "0", or the status that impoint would end with and its message in one
-// line. FOLDER holds the results of the last run.
+// with "0" and the processor seconds without the set-up, or the status that
+// impoint would end with and its message, in one line. FOLDER holds the results
+// of the last run.
 
 #include <impoint/base/command_line.h>
 #include <impoint/base/parameter_file.h>
@@ -12,16 +13,19 @@
 #include <impoint/simulation.h>
 
 #include <algorithm>
+#include <ctime>
 #include <iostream>
 
 using namespace Impoint;
 
 template <int dim>
-void run(ParameterFile &file, const RunOptions &options)
+double run(ParameterFile &file, const RunOptions &options)
 {
-  const Scene<dim> scene(file);
-  Simulation<dim>  simulation(file, scene, options, MPI_COMM_WORLD);
+  const Scene<dim>   scene(file);
+  Simulation<dim>    simulation(file, scene, options, MPI_COMM_WORLD);
+  const std::clock_t start = std::clock();
   simulation.run();
+  return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 std::string answer(const int status, std::string message)
@@ -38,8 +42,10 @@ std::string run_line(const std::string &line, const RunOptions &options)
       const std::string scene = words.front();
       words.erase(words.begin());
       ParameterFile file(scene, words);
-      file.raw("Dimension", "2") == "2" ? run<2>(file, options) :
-                                          run<3>(file, options);
+      return answer(0,
+                    std::to_string(file.raw("Dimension", "2") == "2" ?
+                                     run<2>(file, options) :
+                                     run<3>(file, options)));
     }
   catch (const InputError &error)
     {
@@ -49,7 +55,6 @@ std::string run_line(const std::string &line, const RunOptions &options)
     {
       return answer(2, failure.what());
     }
-  return "0";
 }
 
 int main(int argc, char *argv[])

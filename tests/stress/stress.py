@@ -27,7 +27,7 @@ HARD = [0., *NEAR, *[1. - cut for cut in NEAR]]
 # Those act on the mean gap of a cell: their own error depends on how many rows
 # of cells the clamp has, so the cut along it stays the same.
 BY_CELLS = ["projected penalty", "augmented Lagrangian", "lagrange multiplier"]
-METHODS = ["penalty", "implicit boundary", *BY_CELLS]
+METHODS = ["penalty", "implicit boundary", "nitsche", *BY_CELLS]
 # points a direction that serve the basis
 BASES = {"linear": 2, "quadratic spline": 3, "cubic spline": 4, "quadratic": 3}
 GHOST = "Grid/Ghost penalty = 1e-3"
@@ -112,7 +112,7 @@ def cuts():
     if not LONG:
         hard = [(0., 0.3), (1 - 1e-6, 0.3), (1e-9, 1 - 1e-9), (0.3, 1e-12)]
     for basis, points in BASES.items():
-        for method in METHODS if LONG else METHODS[:3]:
+        for method in METHODS if LONG else METHODS[:4]:
             def settings(place):
                 along = 0.3 if method in BY_CELLS else place[1]
                 return [*OUTLINE, *box(0.5, place[0], along), GHOST,
@@ -120,6 +120,27 @@ def cuts():
                         f"Bodies/beam/Points per direction = {points}",
                         f"Boundaries/clamp/Enforcement = {method}"]
             series(f"cuts, {basis}, {method}", [*drawn, *hard], settings, even)
+
+
+def accuracy():
+    """Nitsche's method on splines: the largest error, whatever is cut how."""
+    for basis, bounds in (("quadratic spline", (2e-4, 2e-5, 2e-6)), ("cubic spline", (1e-5,))):
+        for level, bound in enumerate(bounds):
+            generator = random.Random(1)
+            even = 200 if LONG else 2
+            places = [(generator.random(), generator.random()) for _ in range(even)]
+            near = [*NEAR[1:], *[1. - cut for cut in NEAR[1:]]]
+            places += [(cut, 0.3) for cut in near] + [(0.3, cut) for cut in near]
+            errors, messages = series(
+                f"accuracy, {basis}, h = 2^-{level + 1}", places if LONG else places[::4], lambda place: [
+                    *OUTLINE, *box(0.5**(level + 1), *place), GHOST, f"Grid/Basis = {basis}",
+                    f"Bodies/beam/Points per direction = {BASES[basis]}",
+                    f"Boundaries/clamp/Particles per segment = {BASES[basis]}",
+                    "Boundaries/clamp/Enforcement = nitsche"], even, math.inf)
+            worst = max(errors.values(), default=math.nan)
+            print(f"  largest error {worst:.2e}, bound {bound:.0e}", flush=True)
+            if messages or not worst <= bound:
+                fail(f"accuracy, {basis}, level {level}: {worst} {messages[:1]}")
 
 
 def factors():
@@ -201,7 +222,7 @@ def free_flight():
 
 
 def main():
-    tests = [cuts, factors, slivers, one_point, incompressible, slender_cells,
+    tests = [cuts, accuracy, factors, slivers, one_point, incompressible, slender_cells,
              overload, free_flight]
     for test in tests:
         if not CHOSEN or test.__name__ in CHOSEN:
