@@ -53,5 +53,5 @@ def draw(path, title, picture):
     figure.suptitle(title)
     figure.legend(handles=legend(rows), fontsize="x-small", loc="lower center", ncols=5)
     figure.tight_layout(rect=(0, 0.12, 1, 1))
-    figure.savefig(picture, dpi=80)
+    figure.savefig(picture, dpi=62)
     pyplot.close(figure)
