@@ -1,5 +1,6 @@
 #include <impoint/solver/algebraic_multigrid.h>
 #include <impoint/solver/band_preconditioner.h>
+#include <impoint/solver/slivers.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/types.h>
@@ -16,41 +17,6 @@ namespace Impoint
     /** The outer functions of splines have small stiffnesses by nature. */
     constexpr double spline_sliver_factor = 10.;
 
-    /** The largest diagonal entry of a node among its free unknowns (conforming
-     * conditions leave rows with nothing but a diagonal of any size); negative
-     * if none is free. */
-    template <int dim>
-    double free_diagonal(const BlockMatrix<dim> &matrix, const unsigned int row)
-    {
-      double diagonal[dim] = {};
-      bool   coupled[dim]  = {};
-      for (std::size_t k = matrix.pattern->row_start[row];
-           k < matrix.pattern->row_start[row + 1];
-           ++k)
-        for (unsigned int r = 0; r < dim; ++r)
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              const double entry = matrix.values[(k * dim + r) * dim + c];
-              if (matrix.pattern->columns[k] == row && r == c)
-                diagonal[r] = entry;
-              else if (entry != 0)
-                coupled[r] = true;
-            }
-      double largest = -1;
-      for (unsigned int d = 0; d < dim; ++d)
-        if (coupled[d])
-          largest = std::max(largest, diagonal[d]);
-      return largest;
-    }
-
-    /** Ghosts as their owners mark them. */
-    void share(const NodeExchange &nodes, std::vector<char> &marks)
-    {
-      std::vector<double> values(marks.begin(), marks.end());
-      nodes.update(values);
-      marks.assign(values.begin(), values.end());
-    }
-
     /** Patterns are symmetric: neighbours of the core have it as a neighbour,
      * ghosts among them. */
     std::vector<char> with_neighbours(const BlockPattern      &pattern,
@@ -64,33 +30,8 @@ namespace Impoint
              ++k)
           if (core[pattern.columns[k]])
             grown[row] = true;
-      share(nodes, grown);
+      nodes.share(grown);
       return grown;
-    }
-
-    /** The median over all ranks of what is not negative, to a thousandth; 0 of
-     * nothing. */
-    double median(const std::vector<double> &values, const MPI_Comm comm)
-    {
-      constexpr double accuracy = 1e-3;
-      const auto       n_below  = [&](const double limit) {
-        const std::size_t n =
-          std::count_if(values.begin(), values.end(), [&](const double value) {
-            return value >= 0 && value < limit;
-          });
-        return Utilities::MPI::sum(n, comm);
-      };
-      double low = 0, high = 0;
-      for (const double value : values)
-        high = std::max(high, value);
-      high                   = Utilities::MPI::max(high, comm);
-      const std::size_t half = n_below(2 * high) / 2;
-      while (high - low > accuracy * high)
-        {
-          const double middle                   = (low + high) / 2;
-          (n_below(middle) > half ? high : low) = middle;
-        }
-      return high;
     }
 
     /** Those of the first @p n nodes that are (not) marked. */
@@ -168,25 +109,6 @@ namespace Impoint
   }
 
   template <int dim>
-  std::vector<char>
-  BandPreconditioner<dim>::find_slivers(const BlockMatrix<dim> &matrix,
-                                        const bool              splines) const
-  {
-    std::vector<double> diagonal(matrix.pattern->n_rows());
-    for (unsigned int node = 0; node < diagonal.size(); ++node)
-      diagonal[node] = free_diagonal(matrix, node);
-
-    const double threshold = (splines ? spline_sliver_factor : 1.) *
-                             sliver_threshold *
-                             median(diagonal, nodes.communicator());
-    std::vector<char> found(diagonal.size() + nodes.n_ghosts());
-    for (unsigned int node = 0; node < diagonal.size(); ++node)
-      found[node] = diagonal[node] >= 0 && diagonal[node] < threshold;
-    share(nodes, found);
-    return found;
-  }
-
-  template <int dim>
   void BandPreconditioner<dim>::partition(const LinearProblem<dim> &problem)
   {
     const unsigned int n_nodes = problem.pattern.n_rows();
@@ -259,10 +181,12 @@ namespace Impoint
   {
     const BlockMatrix<dim> &moderate =
       problem.has_moderate ? problem.moderate : problem.matrix;
-    nodes = problem.nodes;
+    nodes              = problem.nodes;
+    const bool splines = !problem.lines.empty() && problem.lines[0].degree > 1;
     const std::vector<char> new_slivers =
       find_slivers(moderate,
-                   !problem.lines.empty() && problem.lines[0].degree > 1);
+                   nodes,
+                   (splines ? spline_sliver_factor : 1.) * sliver_threshold);
     if (!serves(problem) || !everywhere(slivers == new_slivers))
       {
         enforced = problem.enforced;
@@ -296,7 +220,19 @@ namespace Impoint
       }
     band_right.resize(band.rows.size() * dim);
     band_solution.resize(band.rows.size() * dim);
+    // a ridge makes the factor inexact; without O there is nothing to iterate
+    const bool ridge =
+      std::any_of(problem.regularisation.begin(),
+                  problem.regularisation.end(),
+                  [](const double value) { return value > 0; });
+    condenses = has_band && v_cycle && everywhere(!ridge);
     return {};
+  }
+
+  template <int dim>
+  void BandPreconditioner<dim>::outdate()
+  {
+    condenses = false;
   }
 
   template <int dim>
@@ -309,18 +245,11 @@ namespace Impoint
     scatter_nodes<dim>(outer_solution, outer.rows, z);
   }
 
+  /** residual = r_O - A_OB A_BB^-1 r_B, and 0 on the band. */
   template <int dim>
-  void BandPreconditioner<dim>::vmult(const std::vector<double> &r,
-                                      std::vector<double>       &z) const
+  void
+  BandPreconditioner<dim>::subtract_band(const std::vector<double> &r) const
   {
-    residual = r;
-    z.assign(r.size(), 0.);
-    if (!has_band)
-      {
-        solve_outside(z);
-        return;
-      }
-
     std::fill(residual.end() - std::size_t(nodes.n_ghosts()) * dim,
               residual.end(),
               0.);
@@ -339,10 +268,12 @@ namespace Impoint
             &residual[std::size_t(pattern.columns[k]) * dim]);
       }
     nodes.add(residual);
+  }
 
-    solve_outside(z);
-    nodes.update(z);
-
+  template <int dim>
+  void BandPreconditioner<dim>::solve_band(std::vector<double> &z) const
+  {
+    const BlockPattern &pattern = coupling.pattern;
     for (std::size_t i = 0; i < band.rows.size(); ++i)
       {
         double sum[dim];
@@ -356,6 +287,50 @@ namespace Impoint
       }
     band_factor.vmult(band_right, band_solution);
     scatter_nodes<dim>(band_solution, band.rows, z);
+  }
+
+  template <int dim>
+  void BandPreconditioner<dim>::vmult(const std::vector<double> &r,
+                                      std::vector<double>       &z) const
+  {
+    z.assign(r.size(), 0.);
+    residual = r;
+    if (has_band && !condenses)
+      subtract_band(r);
+    solve_outside(z);
+    if (!has_band)
+      return;
+
+    nodes.update(z);
+    gather_nodes<dim>(r, band.rows, band_right);
+    solve_band(z);
+  }
+
+  template <int dim>
+  bool BandPreconditioner<dim>::start(const std::vector<double> &b,
+                                      std::vector<double>       &x) const
+  {
+    if (!condenses)
+      return false;
+    gather_nodes<dim>(b, band.rows, band_right);
+    band_factor.vmult(band_right, band_solution);
+    scatter_nodes<dim>(band_solution, band.rows, x);
+    return true;
+  }
+
+  template <int dim>
+  void BandPreconditioner<dim>::clear(std::vector<double> &r) const
+  {
+    for (const unsigned int node : band.rows)
+      std::fill_n(&r[std::size_t(node) * dim], dim, 0.);
+  }
+
+  template <int dim>
+  void BandPreconditioner<dim>::finish(const std::vector<double> &b,
+                                       std::vector<double>       &x) const
+  {
+    gather_nodes<dim>(b, band.rows, band_right);
+    solve_band(x);
   }
 
   template <int dim>

@@ -66,22 +66,34 @@ namespace Impoint
     IterationResult     result;
     std::vector<double> r = b, z(n_local), q(n);
     r.resize(n_local);
-    x.assign(n, 0.);
+    x.assign(n_local, 0.);
 
     if (dot(b, b) == 0)
       {
         result.converged = true;
         result.reduction = 0;
+        x.resize(n);
         return result;
       }
 
+    const bool   started = preconditioner.start(b, x);
+    const double solved  = started ? dot(b, x) : 0.;
+    if (started)
+      {
+        nodes.update(x);
+        matrix.vmult(x.data(), q.data());
+        for (std::size_t i = 0; i < n; ++i)
+          r[i] -= q[i];
+        preconditioner.clear(r);
+      }
     preconditioner.vmult(r, z);
     std::vector<double> p       = z;
-    const double        initial = dot(r, z);
+    double              r_dot_z = dot(r, z);
+    const double        initial = solved + r_dot_z; // b . M b
     require_positive(initial, "r . M r");
+    result.converged = r_dot_z == 0;
 
-    double r_dot_z = initial;
-    while (result.iterations < control.max_iterations &&
+    while (!result.converged && result.iterations < control.max_iterations &&
            !hopeless(control, result))
       {
         nodes.update(p);
@@ -97,22 +109,28 @@ namespace Impoint
           }
         ++result.iterations;
 
+        if (started)
+          preconditioner.clear(r);
         preconditioner.vmult(r, z);
         const double previous = r_dot_z;
         r_dot_z               = dot(r, z);
         // at round-off the product may have either sign
         result.reduction = std::sqrt(std::abs(r_dot_z) / initial);
-        if (result.reduction <= control.tolerance)
-          {
-            result.converged = true;
-            break;
-          }
+        result.converged = result.reduction <= control.tolerance;
+        if (result.converged)
+          break;
         require_positive(r_dot_z, "r . M r");
 
         const double beta = r_dot_z / previous;
         for (std::size_t i = 0; i < n; ++i)
           p[i] = z[i] + beta * p[i];
       }
+    if (started)
+      {
+        nodes.update(x);
+        preconditioner.finish(b, x);
+      }
+    x.resize(n);
     return result;
   }
 

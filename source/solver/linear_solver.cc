@@ -308,6 +308,7 @@ namespace Impoint
   {
     Implementation &data = *implementation;
     data.current = data.proved = data.incomplete_is_current = false;
+    data.band.outdate();
     // a stiff enforcement outside of the old band would not be bounded
     if (data.iterative && !data.band.serves(problem))
       data.exists = false;

@@ -91,6 +91,15 @@ namespace Impoint
 
 
 
+  void NodeExchange::share(std::vector<char> &marks) const
+  {
+    std::vector<double> values(marks.begin(), marks.end());
+    update(values);
+    marks.assign(values.begin(), values.end());
+  }
+
+
+
   void NodeExchange::collect(
     const std::function<void(const double, double &)> &combine,
     std::vector<double>                               &values) const

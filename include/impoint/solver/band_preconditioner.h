@@ -23,6 +23,9 @@ namespace Impoint
    * With B the band and O the other nodes, that is
    *   z_O = V (r_O - A_OB A_BB^-1 r_B),  z_B = A_BB^-1 (r_B - A_BO z_O):
    * what the V-cycle says of the band itself is superseded by the last solve.
+   * For the very matrix it was made for, an iteration that starts from the
+   * band's part of the solution keeps r_B zero and is spared the first of the
+   * two solves: conjugate gradients on the Schur complement of O.
    *
    * On several ranks the V-cycle is spread over them, while the factor of the
    * band, which is a surface, is on one. All is collective.
@@ -45,19 +48,29 @@ namespace Impoint
      * is not positive, if any; if another rank owns it, an invalid number. */
     std::optional<unsigned int> renew(const LinearProblem<dim> &problem);
 
+    /** Tells that the matrix is not the one of renew() any more. */
+    void outdate();
+
     void vmult(const std::vector<double> &r,
                std::vector<double>       &z) const override;
+    bool start(const std::vector<double> &b,
+               std::vector<double>       &x) const override;
+    void clear(std::vector<double> &r) const override;
+    void finish(const std::vector<double> &b,
+                std::vector<double>       &x) const override;
 
     /** "band + geometric multigrid" or the like. */
     std::string description() const;
 
   private:
-    /** Which nodes are slivers, ghosts included. */
-    std::vector<char> find_slivers(const BlockMatrix<dim> &matrix,
-                                   const bool              splines) const;
-    void              partition(const LinearProblem<dim> &problem);
-    void              make_v_cycle(const LinearProblem<dim> &problem);
-    void              solve_outside(std::vector<double> &residual) const;
+    void partition(const LinearProblem<dim> &problem);
+    void make_v_cycle(const LinearProblem<dim> &problem);
+    void solve_outside(std::vector<double> &residual) const;
+
+    void subtract_band(const std::vector<double> &r) const;
+
+    /** z_B = A_BB^-1 (band_right - A_BO z_O), with the ghosts of O. */
+    void solve_band(std::vector<double> &z) const;
 
     /** Whether it holds on all ranks. */
     bool everywhere(const bool here) const;
@@ -65,6 +78,7 @@ namespace Impoint
     const double      sliver_threshold;
     NodeExchange      nodes;
     bool              partitioned = false, has_band = false;
+    bool              condenses = false; // keeps r_B zero
     std::vector<char> enforced, slivers;
 
     BlockSubmatrix<dim> band;     // A_BB

@@ -21,6 +21,24 @@ namespace Impoint
     /** z = M r; z has the size of r. Collective if it serves several ranks. */
     virtual void vmult(const std::vector<double> &r,
                        std::vector<double>       &z) const = 0;
+
+    /**
+     * What solves for a part of the unknowns exactly starts the iteration from
+     * that part of the solution, in @p x, which was zero: the residual of these
+     * unknowns then stays zero but for round-off, which clear() takes away, and
+     * finish() finds them in the end from all others, ghosts included. Returns
+     * whether it is so.
+     */
+    virtual bool start(const std::vector<double> & /*b*/,
+                       std::vector<double> & /*x*/) const
+    {
+      return false;
+    }
+    virtual void clear(std::vector<double> & /*r*/) const
+    {}
+    virtual void finish(const std::vector<double> & /*b*/,
+                        std::vector<double> & /*x*/) const
+    {}
   };
 
   struct IterationControl

@@ -66,6 +66,9 @@ namespace Impoint
     /** Ghosts take the values of their owners. Collective, as all below. */
     void update(std::vector<double> &values) const;
 
+    /** Ghosts as their owners mark them. */
+    void share(std::vector<char> &marks) const;
+
     /** Owners add to a node's values those that it has as a ghost, which
      * become 0. */
     void add(std::vector<double> &values) const;
