@@ -30,7 +30,7 @@ namespace Impoint
       sliver,
       "Nodes with a diagonal stiffness below this part of the "
       "median are solved for exactly [-]; with splines, whose outer "
-      "functions are small by nature, below ten times that.",
+      "functions are small by nature, below 1e4 times that.",
       Patterns::Double(0., 1.));
     prm.add_parameter("Renew iterations",
                       renew_iterations,

@@ -46,6 +46,14 @@ void stiffnesses(const Settings &settings)
     }
 }
 
+/** Slivers that even the V-cycle leaves out. */
+void thin_slivers()
+{
+  Block<3> block(Settings{8, false, true, true, 1e-8, 1e-8});
+  block.set_penalty(1e4);
+  compare("3D, thin slivers", block);
+}
+
 /** Nodes at the far end fixed, with diagonals far from all others. */
 void conforming()
 {
@@ -78,6 +86,7 @@ int main(int argc, char **argv)
   stiffnesses<2>(Settings{40});
   stiffnesses<3>(Settings{8});
   stiffnesses<3>(Settings{8, true, true, false});
+  thin_slivers();
   conforming();
   for (const std::string kind : {"direct", "iterative"})
     {

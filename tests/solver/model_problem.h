@@ -19,9 +19,10 @@ namespace ModelProblem
   {
     unsigned int cells   = 8;     // per edge of the unit square or cube
     bool         slip    = false; // with the far end held, else fixed
-    bool         slivers = true;  // a free surface that cuts cells at 1e-4
+    bool         slivers = true;  // a free surface that cuts cells
     bool         lattice = true;
     double       ridge   = 1e-8; // of E h^(dim-2), on every node
+    double       thin = 1e-4; // part of their volume that slivers' points have
   };
 
   /**
@@ -154,7 +155,7 @@ namespace ModelProblem
           cells[cell_of(x)].points.emplace_back(
             x,
             std::pow(h / 2, dim) *
-              (settings.slivers && depth < 0.3 * h ? 1e-4 : 1.));
+              (settings.slivers && depth < 0.3 * h ? settings.thin : 1.));
       }
   }
 

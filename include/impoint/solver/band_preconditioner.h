@@ -19,7 +19,8 @@ namespace Impoint
    * neighbours.
    *
    * One application solves exactly on the band, does a V-cycle for the
-   * moderate matrix on all nodes but slivers, and solves on the band again.
+   * moderate matrix on all nodes but slivers that are next to empty, and solves
+   * on the band again.
    * With B the band and O the other nodes, that is
    *   z_O = V (r_O - A_OB A_BB^-1 r_B),  z_B = A_BB^-1 (r_B - A_BO z_O):
    * what the V-cycle says of the band itself is superseded by the last solve.
@@ -35,7 +36,7 @@ namespace Impoint
   {
   public:
     /** A node is a sliver below @p sliver times the median diagonal; with
-     * splines below ten times that. */
+     * splines below 1e4 times that. */
     BandPreconditioner(const double sliver);
 
     /** Tells that the pattern changed: the next renew() partitions anew. */
@@ -80,10 +81,11 @@ namespace Impoint
     bool              partitioned = false, has_band = false;
     bool              condenses = false; // keeps r_B zero
     std::vector<char> enforced, slivers;
+    std::vector<char> empty; // slivers of next to no stiffness
 
     BlockSubmatrix<dim> band;     // A_BB
     BlockSubmatrix<dim> coupling; // A_BO, columns numbered as in A
-    BlockSubmatrix<dim> outer;    // the moderate matrix without slivers
+    BlockSubmatrix<dim> outer;    // the moderate matrix without what is empty
 
     GatheredFactor<dim>          band_factor;
     std::unique_ptr<VCycle<dim>> v_cycle; // none if the band is everything

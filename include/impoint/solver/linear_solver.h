@@ -26,7 +26,7 @@ namespace Impoint
     std::string  kind             = "automatic"; // automatic|direct|iterative
     double       tolerance        = 1e-12;
     unsigned int max_iterations   = 500;
-    double       sliver           = 1e-2; // of the median diagonal
+    double       sliver           = 1e-5; // of the median diagonal
     unsigned int renew_iterations = 30;   // old preconditioner kept up to here
   };
 
