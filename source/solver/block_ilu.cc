@@ -1,5 +1,6 @@
 #include <impoint/solver/block_ilu.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
@@ -48,12 +49,28 @@ namespace Impoint
 
 
     double dot_product(const std::vector<double> &a,
-                       const std::vector<double> &b)
+                       const std::vector<double> &b,
+                       const NodeExchange        &nodes)
     {
       double sum = 0;
       for (std::size_t i = 0; i < a.size(); ++i)
         sum += a[i] * b[i];
-      return sum;
+      return Utilities::MPI::sum(sum, nodes.communicator());
+    }
+
+
+
+    /** Where each row's columns of other ranks begin: they are the last. */
+    std::vector<std::size_t> ends_of_rows(const BlockPattern &pattern)
+    {
+      std::vector<std::size_t> ends;
+      for (unsigned int row = 0; row < pattern.n_rows(); ++row)
+        ends.push_back(
+          std::lower_bound(pattern.columns.begin() + pattern.row_start[row],
+                           pattern.columns.begin() + pattern.row_start[row + 1],
+                           pattern.n_rows()) -
+          pattern.columns.begin());
+      return ends;
     }
   } // namespace
 
@@ -66,13 +83,13 @@ namespace Impoint
     factors                 = matrix;
     const auto &pattern     = *matrix.pattern;
     diagonal                = diagonal_blocks(pattern);
+    ends                    = ends_of_rows(pattern);
     const auto none         = std::numeric_limits<std::size_t>::max();
 
     std::vector<std::size_t> place(pattern.n_rows(), none); // in this row
     for (unsigned int row = 0; row < pattern.n_rows(); ++row)
       {
-        const auto begin = pattern.row_start[row],
-                   end   = pattern.row_start[row + 1];
+        const auto begin = pattern.row_start[row], end = ends[row];
         for (std::size_t k = begin; k < end; ++k)
           place[pattern.columns[k]] = k;
         for (std::size_t k = begin; k < diagonal[row]; ++k)
@@ -84,9 +101,7 @@ namespace Impoint
             multiply<dim>(part,
                           &factors.values[diagonal[above] * n_entries],
                           lower);
-            for (std::size_t q = diagonal[above] + 1;
-                 q < pattern.row_start[above + 1];
-                 ++q)
+            for (std::size_t q = diagonal[above] + 1; q < ends[above]; ++q)
               {
                 const std::size_t to = place[pattern.columns[q]];
                 if (to == none)
@@ -123,11 +138,7 @@ namespace Impoint
     for (unsigned int row = pattern.n_rows(); row-- > 0;)
       {
         double *x = &z[row * dim];
-        row_vmult<dim>(factors,
-                       diagonal[row] + 1,
-                       pattern.row_start[row + 1],
-                       z.data(),
-                       sum);
+        row_vmult<dim>(factors, diagonal[row] + 1, ends[row], z.data(), sum);
         for (int d = 0; d < dim; ++d)
           sum[d] = x[d] - sum[d];
         std::fill(x, x + dim, 0.);
@@ -143,6 +154,7 @@ namespace Impoint
   // Preconditioned from the right: the residual is the true one.
   template <int dim>
   IterationResult BlockIlu<dim>::solve(const BlockMatrix<dim>    &matrix,
+                                       const NodeExchange        &nodes,
                                        const std::vector<double> &b,
                                        const double               tolerance,
                                        std::vector<double>       &x) const
@@ -152,33 +164,43 @@ namespace Impoint
     const std::size_t         n = b.size();
     std::vector<double>       r = b, p(n, 0.), v(n, 0.), p_hat, r_hat, t(n);
     const std::vector<double> shadow = b;
-    const double              size   = std::sqrt(dot_product(b, b));
+    const auto                dot    = [&nodes](const std::vector<double> &f,
+                              const std::vector<double> &g) {
+      return dot_product(f, g, nodes);
+    };
+    const auto multiply_with_ghosts = [&](std::vector<double> &f,
+                                          std::vector<double> &product) {
+      f.resize(n + std::size_t(nodes.n_ghosts()) * dim);
+      nodes.update(f);
+      matrix.vmult(f.data(), product.data());
+    };
+    const double size = std::sqrt(dot(b, b));
     x.assign(n, 0.);
     result.converged = size == 0;
     double rho = 1, alpha = 1, omega = 1;
     while (!result.converged && result.iterations < most)
       {
-        const double next = dot_product(shadow, r);
+        const double next = dot(shadow, r);
         const double beta = next / rho * (alpha / omega);
         rho               = next;
         for (std::size_t i = 0; i < n; ++i)
           p[i] = r[i] + beta * (p[i] - omega * v[i]);
         vmult(p, p_hat);
-        matrix.vmult(p_hat.data(), v.data());
-        alpha = rho / dot_product(shadow, v);
+        multiply_with_ghosts(p_hat, v);
+        alpha = rho / dot(shadow, v);
         for (std::size_t i = 0; i < n; ++i)
           r[i] -= alpha * v[i];
         vmult(r, r_hat);
-        matrix.vmult(r_hat.data(), t.data());
-        const double square = dot_product(t, t);
-        omega               = square > 0 ? dot_product(t, r) / square : 0.;
+        multiply_with_ghosts(r_hat, t);
+        const double square = dot(t, t);
+        omega               = square > 0 ? dot(t, r) / square : 0.;
         for (std::size_t i = 0; i < n; ++i)
           {
             x[i] += alpha * p_hat[i] + omega * r_hat[i];
             r[i] -= omega * t[i];
           }
         ++result.iterations;
-        result.reduction = std::sqrt(dot_product(r, r)) / size;
+        result.reduction = std::sqrt(dot(r, r)) / size;
         result.converged = result.reduction <= tolerance;
         if (!std::isfinite(result.reduction) ||
             (omega == 0 && !result.converged) ||

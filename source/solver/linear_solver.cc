@@ -83,11 +83,6 @@ namespace Impoint
     /** Factorises from now on, if the problem is of a size for it. */
     bool gives_up_iterating(const LinearProblem<dim> &problem);
 
-    void solve_unsymmetric(const LinearProblem<dim>  &problem,
-                           const std::vector<double> &b,
-                           const double               tolerance,
-                           std::vector<double>       &x);
-
     /** Solves a matrix that is not symmetric without a factor, if that pays. */
     bool try_incomplete(const LinearProblem<dim>  &problem,
                         const std::vector<double> &b,
@@ -232,37 +227,15 @@ namespace Impoint
             --distrusted;
             return false;
           }
-        if (!incomplete.factorize(problem.matrix))
+        if (!Utilities::MPI::min(int(incomplete.factorize(problem.matrix)),
+                                 problem.nodes.communicator()))
           return learn(false);
         incomplete_is_current = true;
       }
-    const auto result = incomplete.solve(problem.matrix, b, tolerance, x);
+    const auto result =
+      incomplete.solve(problem.matrix, problem.nodes, b, tolerance, x);
     counters.linear_iterations += result.iterations;
     return learn(result.converged);
-  }
-
-  template <int dim>
-  void LinearSolver<dim>::Implementation::solve_unsymmetric(
-    const LinearProblem<dim>  &problem,
-    const std::vector<double> &b,
-    const double               tolerance,
-    std::vector<double>       &x)
-  {
-    if (!current && try_incomplete(problem, b, tolerance, x))
-      return;
-    if (!current)
-      {
-        ++counters.factorisations;
-        if (!lu_knows_pattern)
-          lu.new_pattern(problem.pattern);
-        lu_knows_pattern = true;
-        if (!lu.factorize(problem.matrix))
-          throw StepFailed("The linear system is singular: a body without "
-                           "sufficient supports, or a material that has lost "
-                           "its stiffness");
-        current = true;
-      }
-    lu.vmult(b, x);
   }
 
   template <int dim>
@@ -285,7 +258,8 @@ namespace Impoint
     data.iterative = problem.symmetric && iterative(problem.n_unknowns(),
                                                     !problem.lines.empty(),
                                                     problem.serves_long);
-    Assert(data.iterative || problem.nodes.alone(), ExcInternalError());
+    Assert(data.iterative || !data.symmetric || problem.nodes.alone(),
+           ExcInternalError());
     if (data.iterative)
       data.band.new_pattern();
     else if (data.symmetric)
@@ -315,21 +289,52 @@ namespace Impoint
   }
 
   template <int dim>
+  bool LinearSolver<dim>::solve_incompletely(const LinearProblem<dim>  &problem,
+                                             const std::vector<double> &b,
+                                             std::vector<double>       &x,
+                                             const double               looser)
+  {
+    return implementation->try_incomplete(
+      problem, b, implementation->parameters.loosened(looser), x);
+  }
+
+  template <int dim>
+  void LinearSolver<dim>::solve_by_pivots(const LinearProblem<dim>  &problem,
+                                          const std::vector<double> &b,
+                                          std::vector<double>       &x)
+  {
+    Implementation &data = *implementation;
+    if (!data.current)
+      {
+        ++data.counters.factorisations;
+        if (!data.lu_knows_pattern)
+          data.lu.new_pattern(problem.pattern);
+        data.lu_knows_pattern = true;
+        if (!data.lu.factorize(problem.matrix))
+          throw StepFailed("The linear system is singular: a body without "
+                           "sufficient supports, or a material that has lost "
+                           "its stiffness");
+        data.current = true;
+      }
+    data.lu.vmult(b, x);
+  }
+
+  template <int dim>
   void LinearSolver<dim>::solve(const LinearProblem<dim>  &problem,
                                 const std::vector<double> &b,
                                 std::vector<double>       &x,
                                 const double               looser)
   {
-    constexpr double loosest = 1e-2;
-    const double     tolerance =
-      std::max(implementation->parameters.tolerance,
-               std::min(loosest,
-                        looser * implementation->parameters.tolerance));
-    Implementation &data = *implementation;
+    Implementation &data      = *implementation;
+    const double    tolerance = data.parameters.loosened(looser);
     Assert(b.size() == problem.pattern.n_rows() * dim,
            ExcDimensionMismatch(b.size(), problem.pattern.n_rows() * dim));
     if (!data.symmetric)
-      return data.solve_unsymmetric(problem, b, tolerance, x);
+      {
+        if (data.current || !data.try_incomplete(problem, b, tolerance, x))
+          solve_by_pivots(problem, b, x);
+        return;
+      }
     if (data.proved)
       {
         data.factor.vmult(b, x);

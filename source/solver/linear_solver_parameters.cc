@@ -3,6 +3,8 @@
 
 #include <deal.II/base/patterns.h>
 
+#include <algorithm>
+
 namespace Impoint
 {
   void LinearSolverParameters::declare(ParameterFile &file)
@@ -38,5 +40,11 @@ namespace Impoint
                       "while it needs no more iterations than this.",
                       Patterns::Integer(0));
     prm.leave_subsection();
+  }
+
+  double LinearSolverParameters::loosened(const double looser) const
+  {
+    constexpr double loosest = 1e-2;
+    return std::max(tolerance, std::min(loosest, looser * tolerance));
   }
 } // namespace Impoint

@@ -13,6 +13,7 @@ namespace Impoint
                                       Counters                     &counters,
                                       const MPI_Comm communicator)
     : comm(communicator)
+    , direct(parameters.kind == "direct")
     , solver(parameters, counters)
     , gathered(communicator)
   {}
@@ -38,9 +39,11 @@ namespace Impoint
   void ParallelSolver<dim>::new_pattern(const ActiveNodes<dim>   &active,
                                         const LinearProblem<dim> &local)
   {
+    nodes       = &active;
+    has_pattern = has_matrix = false;
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
       way = Way::alone;
-    else if (local.symmetric && iterative(active, local))
+    else if (local.symmetric ? iterative(active, local) : !direct)
       {
         way = Way::together;
         std::vector<NodeExchange::Number> ghosts;
@@ -75,12 +78,49 @@ namespace Impoint
   template <int dim>
   void ParallelSolver<dim>::new_matrix(const LinearProblem<dim> &local)
   {
+    has_matrix = false;
     if (way == Way::together)
       distributed.new_matrix(local);
     else if (way == Way::on_root)
       gathered.new_matrix(local);
     act(local,
         [&](const LinearProblem<dim> &problem) { solver.new_matrix(problem); });
+  }
+
+
+
+  template <int dim>
+  void ParallelSolver<dim>::solve_on_root(std::vector<double> &right,
+                                          std::vector<double> &solution,
+                                          const double         looser)
+  {
+    right = gathered.gather(right);
+    Impoint::on_root(comm, [&]() {
+      if (way == Way::on_root)
+        solver.solve(gathered.problem(), right, solution, looser);
+      else
+        solver.solve_by_pivots(gathered.problem(), right, solution);
+    });
+    solution = gathered.scatter(solution);
+  }
+
+
+
+  template <int dim>
+  void ParallelSolver<dim>::solve_unsymmetric(const LinearProblem<dim> &local,
+                                              std::vector<double>      &right,
+                                              std::vector<double> &solution,
+                                              const double         looser)
+  {
+    if (!has_matrix && solver.solve_incompletely(
+                         distributed.problem(), right, solution, looser))
+      return;
+    if (!has_pattern)
+      gathered.new_pattern(*nodes, local);
+    if (!has_matrix)
+      gathered.new_matrix(local);
+    has_pattern = has_matrix = true;
+    solve_on_root(right, solution, looser);
   }
 
 
@@ -93,12 +133,13 @@ namespace Impoint
   {
     std::vector<double> right(b.begin(), b.end()), solution;
     if (way == Way::on_root)
-      right = gathered.gather(right);
-    act(local, [&](const LinearProblem<dim> &problem) {
-      solver.solve(problem, right, solution, looser);
-    });
-    if (way == Way::on_root)
-      solution = gathered.scatter(solution);
+      solve_on_root(right, solution, looser);
+    else if (way == Way::together && !local.symmetric)
+      solve_unsymmetric(local, right, solution, looser);
+    else
+      act(local, [&](const LinearProblem<dim> &problem) {
+        solver.solve(problem, right, solution, looser);
+      });
     std::copy(solution.begin(), solution.end(), x.begin());
   }
 

@@ -23,6 +23,9 @@ namespace Impoint
   {
     void declare(ParameterFile &file);
 
+    /** The tolerance times @p looser, within reason. */
+    double loosened(const double looser) const;
+
     std::string  kind             = "automatic"; // automatic|direct|iterative
     double       tolerance        = 1e-12;
     unsigned int max_iterations   = 500;
@@ -110,6 +113,20 @@ namespace Impoint
                const std::vector<double> &b,
                std::vector<double>       &x,
                const double               looser = 1.);
+
+    /**
+     * The two ways to solve what is not symmetric, which solve() takes one
+     * after the other; of several ranks, all take the first together and one
+     * the second. Returns whether that has solved it: with incomplete factors
+     * where a digit more or less does not count.
+     */
+    bool solve_incompletely(const LinearProblem<dim>  &problem,
+                            const std::vector<double> &b,
+                            std::vector<double>       &x,
+                            const double               looser);
+    void solve_by_pivots(const LinearProblem<dim>  &problem,
+                         const std::vector<double> &b,
+                         std::vector<double>       &x);
 
     /** "CHOLMOD (supernodal)" or "CG, band + geometric multigrid" ... */
     std::string description() const;

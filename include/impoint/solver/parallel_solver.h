@@ -11,8 +11,9 @@ namespace Impoint
   /**
    * Solves linear problems whose matrix is spread over the ranks as each one's
    * sum over its own cells. Alone, a rank hands its problem on as it is. Of
-   * several, all iterate together on large problems, while small ones, and
-   * those that must be factorised, are gathered on rank 0.
+   * several, all iterate together on large problems, and on those that are not
+   * symmetric, while small ones, and those that must be factorised, are
+   * gathered on rank 0.
    */
   template <int dim>
   class ParallelSolver
@@ -54,7 +55,22 @@ namespace Impoint
     template <typename Action>
     void act(const LinearProblem<dim> &local, const Action &action) const;
 
+    void solve_on_root(std::vector<double> &right,
+                       std::vector<double> &solution,
+                       const double         looser);
+
+    /** Together if that serves, else on rank 0. */
+    void solve_unsymmetric(const LinearProblem<dim> &local,
+                           std::vector<double>      &right,
+                           std::vector<double>      &solution,
+                           const double              looser);
+
     MPI_Comm                comm;
+    bool                    direct; // that kind
+    const ActiveNodes<dim> *nodes = nullptr;
+
+    // what of a problem that all have together rank 0 has as well
+    bool                    has_pattern = false, has_matrix = false;
     Way                     way = Way::alone;
     LinearSolver<dim>       solver;
     GatheredProblem<dim>    gathered;
