@@ -5,8 +5,8 @@ A cantilever with a clamp and sides that leave a part of the first cells filled.
 
 from driver import expect, run_scene
 
-CELLS = 8  # over the height of the beam
-LENGTH = 3
+CELLS = 6  # over the height of the beam
+LENGTH = 8
 
 
 def box(counts, upper):
@@ -42,9 +42,8 @@ SPLINES = ["Grid/Basis = quadratic spline", "Grid/Ghost penalty = 1e-3",
            "Bodies/beam/Points per direction = 3",
            "Boundaries/clamp/Enforcement = nitsche"]
 
-for filled in (0.05, 1e-3):
-    expect(iterations("hexahedra", filled, []) <= 20, "too many")
-expect(iterations("tetrahedra", 0.05, ["Grid/Cells = tetrahedra"]) <= 30,
+# While the V-cycle left out all slivers it was 38, 35 and 51.
+expect(iterations("hexahedra", 0.02, []) <= 20, "too many")
+expect(iterations("tetrahedra", 1e-3, ["Grid/Cells = tetrahedra"]) <= 30,
        "too many")
-CELLS = 5
 expect(iterations("splines", 0.5, SPLINES) <= 30, "too many")
