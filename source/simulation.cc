@@ -201,11 +201,9 @@ namespace Impoint
   {
     std::string reason = failure.what();
     reason.erase(reason.find_last_not_of(". ") + 1);
-    std::ostringstream text;
-    text << "step " << counters.steps + 1 << " at time " << time
-         << " s with a step of " << failed << " s: " << reason;
+    const std::string text = of_step(failed) + reason;
     if (constant_load)
-      throw RunFailed(text.str() +
+      throw RunFailed(text +
                       ". Smaller steps would not help: no load depends on t. "
                       "Let it grow with time, e.g. Body force = 0; -9.81 * t");
     ++counters.halved_steps;
@@ -213,11 +211,11 @@ namespace Impoint
     if (step_size.size < scene.time.smallest * scene.time.step)
       {
         step_size = {scene.time.step, 0}; // of a run that goes on from here
-        throw RunFailed(text.str() +
+        throw RunFailed(text +
                         ". Steps were halved down to the smallest ('Smallest "
                         "step' in section 'Time')");
       }
-    terminal.detail(text.str() + "; halved");
+    terminal.detail(text + "; halved");
   }
 
 
@@ -294,7 +292,14 @@ namespace Impoint
     u.reinit(active.unknowns());
     u.update_ghost_values();
     newton->solve(u);
-    find_new_places();
+    try
+      {
+        find_new_places();
+      }
+    catch (const RunFailed &failure)
+      {
+        throw RunFailed(of_step(dt) + failure.what());
+      }
     commit(dt);
   }
 
@@ -307,7 +312,7 @@ namespace Impoint
     ScopedSeconds timer(seconds.locate);
     if (!scene.grid.is_kept())
       new_places(*points, active, u, places);
-    counters.searches += points->find(places);
+    counters.searches += points->find(places, "material point");
     std::vector<double> cell_u;
     for (unsigned int m = 0; m < methods.size(); ++m)
       {
@@ -324,7 +329,8 @@ namespace Impoint
                                    boundary_places[m]);
           }
         if (methods[m]->moves())
-          particles.find(boundary_places[m]);
+          particles.find(boundary_places[m],
+                         "in boundary '" + particles.name() + "' particle");
       }
     if (scene.time.is_dynamic() && !scene.grid.is_kept())
       Enforcement::check_crossing(
@@ -346,7 +352,12 @@ namespace Impoint
     }
     const auto before = state();
     for (const auto &measurement : measurements)
-      measurement->follow(before, u);
+      {
+        measurement->follow(before, u);
+        const std::string text = measurement->take_warning();
+        if (!text.empty())
+          terminal.warning(text);
+      }
     {
       ScopedSeconds timer(seconds.update);
       update_points(active,

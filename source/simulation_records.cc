@@ -94,6 +94,18 @@ namespace Impoint
 
 
 
+  /** What a message on the next step, of length @p dt, begins with. */
+  template <int dim>
+  std::string Simulation<dim>::of_step(const double dt) const
+  {
+    std::ostringstream text;
+    text << "step " << counters.steps + 1 << " at time " << time
+         << " s with a step of " << dt << " s: ";
+    return text.str();
+  }
+
+
+
   template <int dim>
   void Simulation<dim>::warn_of_lost_loads()
   {

@@ -51,26 +51,27 @@ namespace Impoint
   private:
     using Vector = LinearAlgebra::distributed::Vector<double>;
 
-    void check_boundaries();
-    void begin();
-    void step_through(const StopSignals &signals);
-    void halve(const double failed, const StepFailed &failure);
-    void advance(const double dt);
-    void begin_step(const double dt, const double end);
-    void activate(const double start, const double end);
-    void find_new_places();
-    void commit(const double dt);
-    void sum_forces();
-    void warn_of_lost_loads();
-    void record();
-    void picture();
-    void fill_record();
-    bool checkpoint_is_due(bool &stop) const;
-    void write_checkpoint();
-    void save_or_load(StateArchive &archive);
-    void resume(const StoredState &stored);
-    void keep_last_good_state();
-    void end(const std::string &status, const std::string &message);
+    void        check_boundaries();
+    void        begin();
+    void        step_through(const StopSignals &signals);
+    std::string of_step(const double dt) const;
+    void        halve(const double failed, const StepFailed &failure);
+    void        advance(const double dt);
+    void        begin_step(const double dt, const double end);
+    void        activate(const double start, const double end);
+    void        find_new_places();
+    void        commit(const double dt);
+    void        sum_forces();
+    void        warn_of_lost_loads();
+    void        record();
+    void        picture();
+    void        fill_record();
+    bool        checkpoint_is_due(bool &stop) const;
+    void        write_checkpoint();
+    void        save_or_load(StateArchive &archive);
+    void        resume(const StoredState &stored);
+    void        keep_last_good_state();
+    void        end(const std::string &status, const std::string &message);
 
     Measurements::State<dim> state() const;
 

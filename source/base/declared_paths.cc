@@ -22,6 +22,14 @@ namespace Impoint
 
 
 
+    std::string with_slashes(std::string path)
+    {
+      std::replace(path.begin(), path.end(), '.', '/');
+      return path;
+    }
+
+
+
     std::size_t common_letters(const std::string &left,
                                const std::string &right)
     {
@@ -68,9 +76,14 @@ namespace Impoint
       if (sections.count(section) == 0)
         outermost = section;
     const std::string list = Words::parent(outermost);
-    return !list.empty() &&
-           std::find(entries.begin(), entries.end(), list + "/Names") !=
-             entries.end();
+    return !list.empty() && is_entry(list + "/Names");
+  }
+
+
+
+  bool DeclaredPaths::is_entry(const std::string &path) const
+  {
+    return std::find(entries.begin(), entries.end(), path) != entries.end();
   }
 
 
@@ -79,7 +92,7 @@ namespace Impoint
                                     const std::string &place) const
   {
     require_section(Words::parent(path), place);
-    if (std::find(entries.begin(), entries.end(), path) == entries.end())
+    if (!is_entry(path))
       throw InputError("there is no entry '" + Words::last_part(path) + "'",
                        place,
                        advice_on_entry(path));
@@ -94,8 +107,9 @@ namespace Impoint
     const auto        siblings = names_in(parent, sections);
     const std::string list     = parent.empty() ? "Names" : parent + "/Names";
 
-    if (std::find(entries.begin(), entries.end(), list) != entries.end() &&
-        Words::nearest(name, siblings).empty())
+    if (sections.count(with_slashes(path)) > 0)
+      return "Write '" + with_slashes(path) + "': '/' stands between sections.";
+    if (is_entry(list) && Words::nearest(name, siblings).empty())
       return "Add '" + name + "' to " + Words::entry(list) +
              " (names are separated by commas), or take the section away.";
     if (siblings.empty())
@@ -111,6 +125,9 @@ namespace Impoint
     const auto        here  = names_in(Words::parent(path), entries);
     const std::string near  = Words::nearest(name, here);
     const std::string other = namesake(path);
+    if (is_entry(with_slashes(path)))
+      return "Write '" + with_slashes(path) +
+             "': '/' stands between section and entry.";
     const std::string question =
       near.empty() ? "" : "Did you mean '" + near + "'?";
 

@@ -159,7 +159,12 @@ namespace Impoint
       }
     catch (const ExceptionBase &)
       {
-        const auto near = Words::nearest(text, Words::choices(entry.pattern));
+        const auto near   = Words::nearest(text, Words::choices(entry.pattern));
+        const auto number = Words::with_point(text, entry.pattern);
+        if (!number.empty())
+          throw error(entry.path,
+                      "'" + text + "' has a comma",
+                      "Write a decimal point: " + number + ".");
         throw error(entry.path,
                     text.empty() ? "the value is empty" :
                                    "'" + text + "' is not allowed",

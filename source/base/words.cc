@@ -82,7 +82,7 @@ namespace Impoint
       const auto high =
         description.substr(dots + 3, description.find(' ', dots) - dots - 3);
       const bool positive =
-        std::atof(low.c_str()) > 0 && std::atof(low.c_str()) < 1e-300;
+        std::atof(low.c_str()) > 0 && std::atof(low.c_str()) <= 1e-300;
       const bool has_low  = low != "-MAX_DOUBLE" && low != "-2147483648";
       const bool has_high = high != "MAX_DOUBLE" && high != "2147483647";
 
@@ -227,6 +227,21 @@ namespace Impoint
       if (description == "[Bool]")
         return {"true", "false"};
       return split(between(description, "[Selection ", " ]"), '|');
+    }
+
+
+
+    std::string with_point(const std::string &text,
+                           const std::string &description)
+    {
+      const auto comma = text.find(',');
+      if (description.rfind("[Double", 0) != 0 || comma == std::string::npos)
+        return "";
+      std::string number = text;
+      number[comma]      = '.';
+      char *rest         = nullptr;
+      std::strtod(number.c_str(), &rest);
+      return *rest == '\0' ? number : "";
     }
 
 

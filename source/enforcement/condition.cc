@@ -44,11 +44,13 @@ namespace Impoint
       "averaged at the nodes (P Eq. 54); automatic: nodal where "
       "the particles' normals differ, else particle.",
       Patterns::Selection("automatic|particle|nodal"));
-    prm.add_parameter("Releasing",
-                      releasing,
-                      "The boundary presses but does not pull: contact with a "
-                      "wall (P Eq. 55). A fixed one sticks while it presses.",
-                      Patterns::Bool());
+    prm.add_parameter(
+      "Releasing",
+      releasing,
+      "The boundary presses but does not pull: contact with a "
+      "wall (P Eq. 55). A fixed one sticks while it presses, by "
+      "at most ten times the pressure.",
+      Patterns::Bool());
     prm.add_parameter("Friction coefficient",
                       friction,
                       "Coulomb friction of a slip boundary [-].",

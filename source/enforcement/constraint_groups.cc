@@ -80,7 +80,7 @@ namespace Impoint
       for (const unsigned int i : all)
         for (unsigned int v = 0; v < constrained.cells()[i].n_vertices; ++v)
           vertices.insert(constrained.cells()[i].vertices[v]);
-      return vertices.size() <= GapPatch<dim>::largest_support &&
+      return vertices.size() <= largest_support &&
              hub(all) != BackgroundGrid<dim>::nowhere;
     }
 

@@ -88,7 +88,25 @@ namespace Impoint
     template <int dim>
     bool GapMethod<dim>::is_symmetric() const
     {
-      return this->condition.friction == 0;
+      return friction() < 0;
+    }
+
+
+
+    /** Coefficient of friction; negative where nothing bounds the traction
+     * along the wall. What sticks until it lets go would drop that traction in
+     * one jump: the equations of a step may have no solution where it pulls
+     * the material off the wall, and Newton's iteration then goes back and
+     * forth between the two for ever. A bound that closes with the pressure
+     * makes the traction continuous. */
+    template <int dim>
+    double GapMethod<dim>::friction() const
+    {
+      constexpr double firm_grip = 10;
+      const auto      &condition = this->condition;
+      if (condition.constraint == "slip")
+        return normal_only ? -1. : condition.friction;
+      return condition.releasing ? firm_grip : -1.;
     }
 
 

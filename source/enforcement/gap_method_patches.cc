@@ -100,7 +100,7 @@ namespace Impoint
     {
       const auto nodes = this->current.active->nodes(
         this->current.active->position(this->boundary->ranges()[r].cell));
-      double N[Patch::largest_support];
+      double N[largest_support];
       shape_values(r, b, nodes.size(), N);
       patch.start_gap += weight * start_gap(b);
       patch.multiplier += weight * multiplier[b];
@@ -152,8 +152,7 @@ namespace Impoint
 
       patch.law           = law(r, patch.area);
       patch.law.releasing = this->condition.releasing;
-      if (this->condition.constraint == "slip" && !normal_only)
-        patch.law.friction = this->condition.friction;
+      patch.law.friction  = friction();
       return patch;
     }
 

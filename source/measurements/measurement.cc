@@ -54,6 +54,11 @@ namespace Impoint
           limited->results(results);
         }
 
+        std::string take_warning() override
+        {
+          return limited->take_warning();
+        }
+
         void save_or_load(StateArchive &archive) override
         {
           limited->save_or_load(archive);

@@ -4,6 +4,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
 
 namespace Impoint
 {
@@ -146,15 +150,28 @@ namespace Impoint
 
 
     template <int dim>
+    bool Probe<dim>::is_lost() const
+    {
+      return std::isnan(place[0]);
+    }
+
+
+
+    template <int dim>
     void Probe<dim>::follow(const State<dim> &state,
                             const LinearAlgebra::distributed::Vector<double> &u)
     {
-      if (!choose(candidates(state, &u),
-                  state.active.basis().grid().communicator(),
-                  increment))
-        throw RunFailed("The probe '" + this->name +
-                        "' is further than one cell from all material at t = " +
-                        std::to_string(state.time) + " s.");
+      if (is_lost() || choose(candidates(state, &u),
+                              state.active.basis().grid().communicator(),
+                              increment))
+        return;
+      std::ostringstream text;
+      text << "the probe '" << this->name
+           << "' is further than one cell from all material at t = "
+           << state.time << " s, (" << place << "): from now on it is nan";
+      warning = text.str();
+      for (unsigned int d = 0; d < dim; ++d)
+        increment[d] = std::numeric_limits<double>::quiet_NaN();
     }
 
 
@@ -177,6 +194,14 @@ namespace Impoint
       NamedValues<dim>::columns(row);
       for (unsigned int d = 0; d < dim; ++d)
         row.emplace_back(this->name + " " + "xyz"[d], place[d]);
+    }
+
+
+
+    template <int dim>
+    std::string Probe<dim>::take_warning()
+    {
+      return std::exchange(warning, {});
     }
 
 

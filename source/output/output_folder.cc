@@ -67,9 +67,9 @@ namespace Impoint
                   "' says: " + std::strerror(errno),
                 "Set a folder that you may write to."};
       if (!overwrite && holds_results(path))
-        return {
-          "the folder '" + path + "' already holds the results of a run",
-          "Set another folder, or allow to replace them with --overwrite."};
+        return {"the folder '" + path + "' already holds the results of a run",
+                "Give another one with --output FOLDER, or replace them with "
+                "--overwrite."};
       return {};
     }
 

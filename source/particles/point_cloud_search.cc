@@ -5,12 +5,14 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/particles/particle_handler.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace Impoint
 {
   template <int dim>
-  bool PointCloud<dim>::find(const std::vector<Point<dim>> &new_places)
+  bool PointCloud<dim>::find(const std::vector<Point<dim>> &new_places,
+                             const std::string             &kind)
   {
     if (anchor != 0)
       return false;
@@ -37,8 +39,24 @@ namespace Impoint
         }
     if (Utilities::MPI::max(static_cast<unsigned int>(strays.size()),
                             grid.communicator()) > 0)
-      find_strays(new_places, strays);
+      find_strays(new_places, strays, kind);
     return true;
+  }
+
+
+
+  /** Of all ranks' particles, in units of their cell. */
+  template <int dim>
+  double PointCloud<dim>::largest_travel(
+    const std::vector<Point<dim>> &new_places) const
+  {
+    double largest = 0;
+    for (const Range &range : cell_ranges)
+      for (unsigned int p = range.begin; p < range.end; ++p)
+        largest = std::max(largest,
+                           position(p).distance(new_places[p]) /
+                             basis.grid().size(range.cell));
+    return Utilities::MPI::max(largest, basis.grid().communicator());
   }
 
 
@@ -46,7 +64,8 @@ namespace Impoint
   /** Strays left this rank's cells: asks every rank whose they are. */
   template <int dim>
   void PointCloud<dim>::find_strays(const std::vector<Point<dim>>   &new_places,
-                                    const std::vector<unsigned int> &strays)
+                                    const std::vector<unsigned int> &strays,
+                                    const std::string               &kind)
   {
     const BackgroundGrid<dim> &grid = basis.grid();
     const unsigned int         me =
@@ -70,6 +89,7 @@ namespace Impoint
     const auto answered =
       Utilities::MPI::all_gather(grid.communicator(), answers);
 
+    const bool steps_too_far = largest_travel(new_places) > 1;
     on_all_ranks(grid.communicator(), [&]() {
       for (unsigned int i = 0; i < strays.size(); ++i)
         {
@@ -80,10 +100,12 @@ namespace Impoint
           if (rank == answered.size())
             {
               std::ostringstream message;
-              message << "point " << id(strays[i]) << " left the grid at ("
+              message << kind << ' ' << id(strays[i]) << " leaves the grid at ("
                       << places[i]
-                      << "). Enlarge the grid there, or hold the body";
-              throw StepFailed(message.str());
+                      << "). Enlarge the grid there, or hold what leaves it";
+              if (steps_too_far)
+                throw StepFailed(message.str());
+              throw RunFailed(message.str());
             }
           moves.push_back({strays[i], answered[rank][me][i], rank});
         }

@@ -92,7 +92,7 @@ void test(const std::string &name, const std::string &entries)
   for (unsigned int step = 0; step < 9; ++step)
     {
       const auto places = turned(cloud, 1);
-      cloud.find(places);
+      cloud.find(places, "point");
       for (unsigned int p = 0; p < cloud.n(); ++p)
         for (unsigned int d = 0; d < dim; ++d)
           cloud.data(p)[d] = places[p][d];
@@ -102,7 +102,7 @@ void test(const std::string &name, const std::string &entries)
   bool left = false;
   try
     {
-      cloud.find(turned(cloud, 3));
+      cloud.find(turned(cloud, 3), "point");
     }
   catch (const StepFailed &)
     {

@@ -87,7 +87,7 @@ def check_failing_run(ranks):
     process = impoint([SCENE, "--set", "Bodies/bar/Material/Model = Hencky",
                        "--set", "Bodies/bar/Body force = 0; -9810 * t",
                        "--set", "Time/Step = 0.25"], ranks)
-    expect(re.search("halved down to the smallest", process.stderr) and
+    expect(re.search("material point .* leaves the grid at", process.stderr) and
            ".." not in process.stderr, process.stderr)
     expect(process.returncode == 2, f"status is not 2:\n{process.stdout}"
            f"{process.stderr}")
@@ -121,6 +121,17 @@ def check_first_step_fails(ranks):
     print(f"constant load, {ranks} ranks: not halved, no results: yes")
 
 
+def check_newton_fails():
+    """No step is small enough for an iteration that may not iterate."""
+    remove_results()
+    process = impoint([SCENE, "--set", "Bodies/bar/Material/Model = Hencky",
+                       "--set", "Bodies/bar/Body force = 0; -9.81 * t",
+                       "--set", "Newton/Maximum iterations = 1"])
+    expect(process.returncode == 2 and
+           "halved down to the smallest" in process.stderr, process.stderr)
+    print("run whose steps all fail: says that they were halved: yes")
+
+
 def check_expression_fails(ranks):
     """At the end the load has no value, on the rank with the tip only."""
     remove_results()
@@ -135,11 +146,30 @@ def check_expression_fails(ranks):
     print(f"load without a value, {ranks} ranks: status 2, state kept: yes")
 
 
+def check_leaving_grid(ranks):
+    """A bar that flies: its first point that leaves is named, at once."""
+    remove_results()
+    process = impoint([SCENE, "--set", "Time/Kind = dynamic",
+                       "--set", "Bodies/bar/Initial velocity = 2; 0",
+                       "--set", "Boundaries/clamp/Active until = 1e-3",
+                       "--set", "Time/Step = 0.05"], ranks)
+    said = re.search(r"step (\d+) at time (\S+) s.*: material point \d+ leaves "
+                     r"the grid at \((\S+) \S+\)", process.stderr)
+    expect(process.returncode == 2 and said, process.stdout + process.stderr)
+    counts = json.loads((RESULTS / "summary.json").read_text())["counts"]
+    expect(counts["halved steps"] == 0 and int(said[1]) == counts["steps"] + 1
+           and 2.375 < float(said[3]) < 2.5, process.stderr)
+    print(f"point that leaves the grid, {ranks} ranks: named at once: yes")
+
+
 def main():
     remove_results()
     Path("unreadable.msh").write_text("no mesh\n")
     Path("full").mkdir(exist_ok=True)
     Path("full/summary.json").write_text("{}\n")
+    Path("rerun").mkdir(exist_ok=True)
+    Path("rerun/parameters.prm").write_text(
+        GOOD.replace("Folder = results", "Folder = ."))
     for case in SCENES:
         check_scene(*case)
     print(f"{len(SCENES)} wrong scenes: one message each, nothing written")
@@ -148,10 +178,12 @@ def main():
         check_command(*case)
     print(f"{len(COMMANDS)} wrong commands: one message each, nothing written")
     check_two_ranks()
+    check_newton_fails()
     for ranks in (1, 2):
         check_failing_run(ranks)
         check_first_step_fails(ranks)
         check_expression_fails(ranks)
+        check_leaving_grid(ranks)
 
 
 main()

@@ -113,12 +113,21 @@ SCENES = [
     ("set Density", "set Thickness = 0\n    set Density", "not allowed"),
     ("subsection Output", "subsection Time\n  set Step = 3\nend\n"
      "subsection Output", "step of 3 s is longer than the run", "set Step"),
+    ("subsection Output", "subsection Time\n  set Step = 0,25\nend\n"
+     "subsection Output", "'0,25' has a comma.*Write a decimal point: 0.25",
+     "set Step"),
+    ("subsection Output", "subsection Time\n  set Step = 0\nend\n"
+     "subsection Output", "'0' is not allowed.*a number above 0", "set Step"),
     ("set Names = tip", "set Names = tip, tip", "name 'tip' occurs twice"),
 ]
 
 SCENE = "bad_inputs_scene.prm"
 COMMANDS = [
     ([], "no scene is given.*impoint SCENE.prm"),
+    ([SCENE, "--set", "Time.Step=1"], "no entry 'Time.Step'.*Write 'Time/Step'"),
+    ([SCENE, "--set", "Boundaries/clamp.Rule=cut"],
+     "Write 'Boundaries/clamp/Rule'"),
+    ([SCENE, "--set", "Bodies.bar/Density=1"], "Write 'Bodies/bar'"),
     (["nowhere.prm"], "nowhere.prm' cannot be read"),
     (["."], "is a folder"),
     ([SCENE, SCENE], "a second scene"),
@@ -133,5 +142,6 @@ COMMANDS = [
     (["--resume", "full", SCENE], "'--resume' and the scene.*exclude each"),
     (["--resume", "full", "--overwrite"], "'--overwrite' exclude each other"),
     (["--resume", "full", "--check"], "'--check' exclude each other"),
-    ([SCENE, "--output", "full"], "already holds the results.*--overwrite"),
+    ([SCENE, "--output", "full"], "already holds.*--output.*--overwrite"),
+    (["rerun/parameters.prm"], "already holds.*--output.*--overwrite"),
 ]

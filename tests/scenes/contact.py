@@ -1,9 +1,7 @@
 """Contact and friction at walls that do not follow the grid, by each method.
 
-Argument: 'friction' (a block on a plane sticks or slides as Coulomb says), 'fall'
-(a block bounces, no point passes the floor, the impulse is the change of
-momentum), 'rolling' (a cylinder on a plane slides, spins or rolls) or 'rod' (a
-turning rod pushes a block).
+Argument: 'friction' (a block on a plane sticks or slides as Coulomb says), 'rolling' (a
+cylinder on a plane slides, spins or rolls) or 'rod' (a turning rod pushes a block).
 """
 
 import csv
@@ -73,39 +71,6 @@ def friction():
                 expect(abs(late[-1] - late[0]) < 1e-6, f"{what}: creeps")
 
 
-def momenta(history, mass, speed):
-    """After each step: the mean velocity of a step is that of its ends."""
-    velocity, path, time = -speed, 0, 0
-    for row in history:
-        step, time = row["time"] - time, row["time"]
-        travel, path = row["centre path"] - path, row["centre path"]
-        velocity = 2 * travel / step - velocity
-        yield mass * velocity
-
-
-def fall():
-    mass = 1000
-    for speed in (0.1, 1, 10, 100):
-        for travel in (1, 0.05):
-            method = METHODS[1] if travel == 1 else METHODS[3]
-            step = travel * 0.1 / speed
-            summary, history = rows("beyond/fall.prm", [
-                f"Bodies/block/Initial velocity = 0; {-speed}",
-                f"Boundaries/floor/Enforcement = {method}",
-                f"Time/Step = {step}",
-                f"Time/End time = {max(3 * step, 0.02 / speed + 0.06)}"])
-            momentum = list(momenta(history, mass, speed))
-            error = max(abs(row["floor I_y"] - m - mass * speed)
-                        for row, m in zip(history, momentum)) / (mass * speed)
-            depth = summary["results"]["under depth"]["value"]
-            print(f"{speed} m/s, {len(history)} steps, {method}: then "
-                  f"{momentum[-1] / mass:.4f} m/s, impulse {error:.1e} off, "
-                  f"{depth:.3f} h deep, {summary['counts']['halved steps']} halved")
-            expect(momentum[-1] > -0.1 * mass * speed, "the block goes on falling")
-            expect(error < 1e-6, "the impulse is not the change of momentum")
-            expect(depth < 0.05, "points pass the floor")
-
-
 def rolling():
     for scene, allowed in (
             ("beyond/friction-cylinder.prm", (5e-3, 5e-2)),
@@ -129,5 +94,5 @@ def rod():
             expect(result["error"] < 2e-2, f"{method}: {name}")
 
 
-{"friction": friction, "fall": fall, "rolling": rolling,
- "rod": rod}[sys.argv[1]]()
+if __name__ == "__main__":
+    {"friction": friction, "rolling": rolling, "rod": rod}[sys.argv[1]]()

@@ -8,6 +8,7 @@ from driver import expect
 
 BAR = Path(__file__).with_name("bad_inputs.prm")
 BAR_3D = Path(__file__).with_name("ranks_bar_3d.prm")
+BLOCK = Path(__file__).with_name("ranks_falling_block.prm")
 LOAD = ["Boundaries/Names = clamp, load",
         "Boundaries/load/Constraint = traction",
         "Boundaries/load/Traction = 0; -1"]
@@ -29,6 +30,24 @@ def expect_warning(title, text, scene, settings, **keywords):
     print(f"{title}: warned of")
 
 
+def check_lost_probe():
+    """It is 1.3 h off the block, within a cell of the block's cells at times."""
+    lost = "probe 'beside' is further than one cell from all material at t ="
+    expect_warning("a probe that loses its material", lost, BLOCK,
+                   ["Measurements/Names = path, beside",
+                    "Measurements/beside/Quantity = probe",
+                    "Measurements/beside/Point = -0.9, 0.5",
+                    "Time/End time = 0.3", "Output/Pictures every = 0"],
+                   check=False)
+    with open("out/history.csv") as file:
+        values = [row["beside u_x"] for row in csv.DictReader(file)]
+    n_known = len([value for value in values if value != "nan"])
+    expect(0 < n_known < len(values) == 15 and
+           values[n_known:] == ["nan"] * (15 - n_known), str(values))
+    summary = driver.json.loads(Path("out/summary.json").read_text())
+    expect(summary["results"]["beside u_x"]["value"] is None, str(summary))
+
+
 def main():
     for scene in (BAR, BAR_3D):
         expect("Warning" not in said_by(scene, []), f"{scene} is all right")
@@ -47,6 +66,8 @@ def main():
                     "Boundaries/load/Rule = cut",
                     "Boundaries/load/Polyline = 2 0; 2 0.5 | 3 0; 3 0.5"],
                    check=False)
+
+    check_lost_probe()
 
     said = said_by(BAR, ["Time/Step = 0.25", "Linear solver/Kind = iterative",
                          "Bodies/bar/Body force = 0; -0.01 * t * t",

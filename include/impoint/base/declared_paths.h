@@ -27,6 +27,7 @@ namespace Impoint
     void require_entry(const std::string &path, const std::string &place) const;
 
   private:
+    bool        is_entry(const std::string &path) const;
     std::string advice_on_section(const std::string &path) const;
     std::string advice_on_entry(const std::string &path) const;
 

@@ -45,6 +45,11 @@ namespace Impoint
      * others. */
     std::vector<std::string> choices(const std::string &description);
 
+    /** The number that @p text is if its comma is a decimal point, where one
+     * number is allowed (@p description as above); else nothing. */
+    std::string with_point(const std::string &text,
+                           const std::string &description);
+
     /** "E" of the path "A/B/E". */
     std::string last_part(const std::string &path);
 

@@ -87,9 +87,10 @@ namespace Impoint
       static constexpr double small_cut_value = 0.01; // epsilon of P Eq. 53
 
     private:
-      bool takes_part(const unsigned int r) const;
-      bool removes_superfluous() const;
-      void make_link_patches();
+      bool   takes_part(const unsigned int r) const;
+      double friction() const;
+      bool   removes_superfluous() const;
+      void   make_link_patches();
 
       template <typename Function>
       void for_patches(const unsigned int r, const Function &function) const;

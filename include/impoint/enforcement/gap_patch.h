@@ -2,6 +2,7 @@
 #define impoint_enforcement_gap_patch_h
 
 #include <impoint/enforcement/traction_law.h>
+#include <impoint/grid/support_size.h>
 #include <impoint/terms/term.h>
 
 #include <array>
@@ -20,8 +21,6 @@ namespace Impoint
     template <int dim>
     struct GapPatch
     {
-      static constexpr unsigned int largest_support = 64; // cubic splines in 3D
-
       /** What the patch does, at the traction that it would take without
        * bounds. */
       struct Contact

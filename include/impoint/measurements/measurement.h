@@ -76,6 +76,12 @@ namespace Impoint
       /** Adds the lines of the table of results. */
       virtual void results(std::vector<Result> &results) const = 0;
 
+      /** What the user should be told, once; all ranks the same. */
+      virtual std::string take_warning()
+      {
+        return "";
+      }
+
       /** What a resumed run must know of earlier steps. */
       virtual void save_or_load(StateArchive & /*archive*/)
       {}

@@ -7,6 +7,7 @@
 #include <deal.II/particles/property_pool.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 DEAL_II_NAMESPACE_OPEN
@@ -113,11 +114,14 @@ namespace Impoint
 
     /**
      * Finds the cells of @p new_places, one for each particle, and remembers
-     * them for move(). Throws StepFailed on every rank, with nothing changed,
-     * if one of them lies outside of the grid. Nothing to do for particles
-     * with an anchor: returns false. Collective.
+     * them for move(). If one of them lies outside of the grid, throws on every
+     * rank, with nothing changed: RunFailed, or StepFailed if some particle
+     * moves by more than a cell, so that smaller steps may go another way.
+     * Messages call a particle a @p kind. Nothing to do for particles with an
+     * anchor: returns false. Collective.
      */
-    bool find(const std::vector<Point<dim>> &new_places);
+    bool find(const std::vector<Point<dim>> &new_places,
+              const std::string             &kind);
 
     /**
      * After the particles' places were set to what find() was asked for: puts
@@ -166,21 +170,23 @@ namespace Impoint
       typename Pool::Handle handle; // once it is in
     };
 
-    void find_strays(const std::vector<Point<dim>>   &new_places,
-                     const std::vector<unsigned int> &strays);
-    void change_cells();
-    void announce(const std::vector<NewParticle> &particles,
-                  std::vector<Arrival>           &arrivals) const;
-    void exchange(const std::vector<Departure> &departures,
-                  std::vector<Arrival>         &arrivals);
-    void take_out(const Departure &departure);
-    void put_in(Arrival &arrival);
-    void list(const std::vector<Arrival> &arrivals);
-    void append(const unsigned int          cell,
-                const typename Pool::Handle handle,
-                const Point<dim>           &reference);
-    void place_supports();
-    void evaluate_supports();
+    void   find_strays(const std::vector<Point<dim>>   &new_places,
+                       const std::vector<unsigned int> &strays,
+                       const std::string               &kind);
+    double largest_travel(const std::vector<Point<dim>> &new_places) const;
+    void   change_cells();
+    void   announce(const std::vector<NewParticle> &particles,
+                    std::vector<Arrival>           &arrivals) const;
+    void   exchange(const std::vector<Departure> &departures,
+                    std::vector<Arrival>         &arrivals);
+    void   take_out(const Departure &departure);
+    void   put_in(Arrival &arrival);
+    void   list(const std::vector<Arrival> &arrivals);
+    void   append(const unsigned int          cell,
+                  const typename Pool::Handle handle,
+                  const Point<dim>           &reference);
+    void   place_supports();
+    void   evaluate_supports();
 
     const Basis<dim>                  &basis;
     PropertyLayout                     property_layout;
