@@ -267,7 +267,8 @@ namespace Impoint
     prm.add_parameter("Particles per segment",
                       particles_per_segment,
                       "Number n of particles on a segment (3D: n by n on a "
-                      "quadrilateral); with 'Rule = cut' on each piece.",
+                      "quadrilateral); with 'Rule = cut' on each piece: a "
+                      "basis of degree p wants n = p + 1.",
                       Patterns::Integer(1, 1000));
     prm.add_parameter("Rule",
                       rule,
