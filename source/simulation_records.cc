@@ -156,6 +156,7 @@ namespace Impoint
   {
     archive.tag("impoint " + std::to_string(dim) + "D");
     archive &time &last_step &step_size.size &step_size.n_good;
+    archive                                  &inertia.largest_energy();
     for (std::size_t *count : counters.all())
       archive &*count;
     for (double *phase : seconds.all())

@@ -295,11 +295,15 @@ namespace Impoint
         {
           typename Patch::Answer answer;
           answer.traction = shared_tractions[r];
-          return store(r, make_patch(r, range.begin, range.end), answer, u);
+          return store(r,
+                       make_patch(r, range.begin, range.end),
+                       answer,
+                       shared_gaps[r],
+                       u);
         }
       if (u != nullptr && takes_part(r))
         return for_patches(r, [&](const Patch &patch) {
-          store(r, patch, answer(patch, u), u);
+          store(r, patch, answer(patch, u), patch.gap(u), u);
         });
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
@@ -312,10 +316,15 @@ namespace Impoint
 
 
 
+    /** What holds remembers the @p gap that it acts on, the same for all of the
+     * patch: how their own gaps differ is never corrected, grows where the
+     * material flows along the wall, and would be a sudden gap of the next cell
+     * that some of them come to. */
     template <int dim>
     void GapMethod<dim>::store(const unsigned int            r,
                                const Patch                  &patch,
                                const typename Patch::Answer &answer,
+                               const Tensor<1, dim>         &common_gap,
                                const double                 *u)
     {
       const auto &slots = this->boundary->slots();
@@ -323,7 +332,8 @@ namespace Impoint
       for (unsigned int b = patch.begin; b < patch.end; ++b)
         {
           const Patch    alone = this->alone(r, b);
-          Tensor<1, dim> gap   = alone.gap(u);
+          Tensor<1, dim> gap =
+            this->condition.releasing ? alone.gap(u) : common_gap;
           if (touch == Touch::open || !is_in(patch, b))
             gap = Tensor<1, dim>();
           else if (touch == Touch::slides)

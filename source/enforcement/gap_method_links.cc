@@ -93,16 +93,17 @@ namespace Impoint
     {
       if (!shares_constraints())
         return;
-      std::vector<Tensor<1, dim>> tractions;
+      std::vector<Tensor<1, dim>> tractions, gaps;
       std::vector<double>         u;
       for (unsigned int l = 0; l < link_patches.size(); ++l)
         {
           displacements(l, u);
           tractions.push_back(held(link_patches[l], u.data()).traction);
+          gaps.push_back(link_patches[l].gap(u.data()));
         }
-      shared_tractions =
-        shared.distribute(tractions,
-                          this->current.active->basis().grid().communicator());
+      const MPI_Comm comm = this->current.active->basis().grid().communicator();
+      shared_tractions    = shared.distribute(tractions, comm);
+      shared_gaps         = shared.distribute(gaps, comm);
     }
 
     template class GapMethod<2>;

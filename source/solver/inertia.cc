@@ -53,6 +53,14 @@ namespace Impoint
       "velocities. It moves no point, but piles up where points flow through "
       "cells and stays for ever; 0: no filter.",
       Patterns::Double(0));
+    prm.add_parameter(
+      "Filter at rest",
+      filter_at_rest,
+      "Time [s] of the velocity filter while the kinetic energy is below 1e-4 of "
+      "its largest before, such as a time step: what flowed comes to rest, and the "
+      "grid gives points in sparse cells unseen velocities for ever; 0: as "
+      "'Velocity filter'.",
+      Patterns::Double(0));
     prm.add_parameter("Mass",
                       mass,
                       "Mass matrix of the nodes.",
@@ -88,6 +96,7 @@ namespace Impoint
                                       "Newmark gamma",
                                       "Spectral radius",
                                       "Velocity filter",
+                                      "Filter at rest",
                                       "Mass",
                                       "Projection",
                                       "Initial acceleration"})
@@ -95,6 +104,10 @@ namespace Impoint
           throw file.error("Time/" + entry,
                            "'" + entry + "' is set in a quasi-static scene",
                            "Set Kind = dynamic, or remove the entry.");
+    if (filter_at_rest > 0 && filter == 0)
+      throw file.error("Time/Filter at rest",
+                       "'Filter at rest' is set, but there is no filter",
+                       "Set 'Velocity filter', too, or take the entry away.");
     for (const std::string entry : {"Newmark beta", "Newmark gamma"})
       if (spectral_radius < 1 && file.is_set("Time/" + entry))
         throw file.error("Time/" + entry,
@@ -121,6 +134,7 @@ namespace Impoint
     , bossak((parameters.spectral_radius - 1) /
              (parameters.spectral_radius + 1))
     , filter(parameters.filter)
+    , filter_at_rest(parameters.filter_at_rest)
     , is_consistent(parameters.mass == "consistent")
     , projects_consistently(parameters.projection == "consistent")
   {
@@ -136,7 +150,24 @@ namespace Impoint
   template <int dim>
   double Inertia<dim>::filtered_part() const
   {
-    return filter > 0 ? -std::expm1(-dt / filter) : 0.;
+    return filter > 0 ? -std::expm1(-dt / (at_rest ? filter_at_rest : filter)) :
+                        0.;
+  }
+
+
+
+  template <int dim>
+  void Inertia<dim>::look_for_rest(const ActiveNodes<dim>    &active,
+                                   const MaterialPoints<dim> &points)
+  {
+    constexpr double rest   = 1e-4; // of the largest energy
+    double           energy = 0;
+    for (unsigned int p = 0; p < points.n(); ++p)
+      energy += 0.5 * points.data(p)[points.slots().mass] *
+                points.vector(p, points.slots().v).norm_square();
+    energy  = Utilities::MPI::sum(energy, active.basis().grid().communicator());
+    largest = std::max(largest, energy);
+    at_rest = energy < rest * largest;
   }
 
 
@@ -231,6 +262,8 @@ namespace Impoint
         divide_by_mass(*vector);
     if (filter > 0)
       find_seen_velocities(active, points);
+    if (filter_at_rest > 0)
+      look_for_rest(active, points);
   }
 
 

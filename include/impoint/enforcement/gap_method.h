@@ -133,6 +133,7 @@ namespace Impoint
       void store(const unsigned int            r,
                  const Patch                  &patch,
                  const typename Patch::Answer &answer,
+                 const Tensor<1, dim>         &common_gap,
                  const double                 *u);
 
       const bool projected;
@@ -150,9 +151,10 @@ namespace Impoint
       std::vector<typename Patch::Contact>         first_contacts;
       bool                                         frozen = false;
 
-      SharedConstraints<dim>      shared;
-      std::vector<Patch>          link_patches;     // with the multiplier now
-      std::vector<Tensor<1, dim>> shared_tractions; // per range, of the step
+      SharedConstraints<dim> shared;
+      std::vector<Patch>     link_patches; // with the multiplier now
+      // per range, of the step
+      std::vector<Tensor<1, dim>> shared_tractions, shared_gaps;
     };
   } // namespace Enforcement
 } // namespace Impoint

@@ -26,6 +26,7 @@ namespace Impoint
     double      gamma           = 0.5;
     double      spectral_radius = 1; // of the highest frequencies, a step
     double      filter          = 0; // of unseen velocities [s]; 0: none
+    double      filter_at_rest  = 0; // instead, near rest [s]; 0: the same
     std::string mass            = "lumped";      // lumped|consistent
     std::string projection      = "lumped";      // lumped|consistent
     std::string initial         = "equilibrium"; // equilibrium|zero|expression
@@ -115,6 +116,13 @@ namespace Impoint
       return v + dt * ((1. - gamma) * a_old + gamma * a_new);
     }
 
+    /** What the filter has to know of earlier steps: the largest kinetic energy
+     * of the points at the start of any step [J]. */
+    double &largest_energy()
+    {
+      return largest;
+    }
+
     /** Part of a point's unseen velocity that the step takes away; 0: there is
      * no filter. */
     double filtered_part() const;
@@ -142,8 +150,12 @@ namespace Impoint
     void find_seen_velocities(const ActiveNodes<dim>    &active,
                               const MaterialPoints<dim> &points);
     void divide_by_mass(Vector &momenta) const;
+    void look_for_rest(const ActiveNodes<dim>    &active,
+                       const MaterialPoints<dim> &points);
 
-    double beta, gamma, bossak, filter;
+    double beta, gamma, bossak, filter, filter_at_rest;
+    double largest = 0; // kinetic energy [J]
+    bool   at_rest = false;
     bool   is_consistent, projects_consistently;
     bool   has_carried = false; // from the last step of a kept grid
     double dt          = 1;
