@@ -3,6 +3,9 @@
 #include <impoint/particles/seeding.h>
 #include <impoint/setup.h>
 
+#include <deal.II/boost_adaptors/point.h>
+#include <deal.II/numerics/rtree.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -115,20 +118,30 @@ namespace Impoint
     template <int dim>
     std::vector<unsigned int>
     nearest_bodies(const MaterialPoints<dim>     &points,
+                   const unsigned int             n_bodies,
                    const std::vector<Point<dim>> &places,
                    const MPI_Comm                 communicator)
     {
-      using Nearest    = std::pair<double, unsigned int>; // squared distance
+      namespace bgi = boost::geometry::index;
+      using Nearest = std::pair<double, unsigned int>; // squared distance
+      std::vector<std::vector<Point<dim>>> of_bodies(n_bodies);
+      for (unsigned int p = 0; p < points.n(); ++p)
+        of_bodies[points.body(p)].push_back(points.position(p));
+      std::vector<RTree<Point<dim>>> bodies;
+      for (const auto &of_body : of_bodies)
+        bodies.push_back(pack_rtree(of_body));
+
       const auto asked = Utilities::MPI::all_gather(communicator, places);
       std::vector<std::vector<Nearest>> answers(asked.size());
       for (unsigned int rank = 0; rank < asked.size(); ++rank)
         for (const Point<dim> &x : asked[rank])
           {
             Nearest nearest(std::numeric_limits<double>::max(), 0);
-            for (unsigned int p = 0; p < points.n(); ++p)
-              nearest = std::min(nearest,
-                                 Nearest((points.position(p) - x).norm_square(),
-                                         points.body(p)));
+            for (unsigned int b = 0; b < bodies.size(); ++b)
+              for (auto p = bodies[b].qbegin(bgi::nearest(x, 1));
+                   p != bodies[b].qend();
+                   ++p)
+                nearest = std::min(nearest, Nearest((*p - x).norm_square(), b));
             answers[rank].push_back(nearest);
           }
       const auto answered   = Utilities::MPI::all_gather(communicator, answers);
@@ -160,7 +173,8 @@ namespace Impoint
         places.push_back(particles.position(b));
       std::vector<unsigned int> bodies(particles.n(), 0);
       if (scene.bodies.size() > 1)
-        bodies = nearest_bodies(points, places, communicator);
+        bodies =
+          nearest_bodies(points, scene.bodies.size(), places, communicator);
 
       const auto                    &slots = particles.slots();
       std::vector<InitialState<dim>> initial;

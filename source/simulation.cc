@@ -264,7 +264,11 @@ namespace Impoint
       }
     system->begin_step(time,
                        end,
-                       body_force(*points, active, body_loads, end),
+                       body_force(*points,
+                                  active,
+                                  body_loads,
+                                  end,
+                                  dynamic ? &inertia.nodal_masses() : nullptr),
                        dynamic ? &inertia : nullptr);
     // Newton's last residual is that of the solution, unless a step is linear.
     end_states.reinit(*points, !system->is_linear());

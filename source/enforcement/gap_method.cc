@@ -23,6 +23,7 @@ namespace Impoint
       : Method<dim>(parameters, std::move(motion), std::move(particles))
       , projected(projected)
       , normal_only(parameters.constraint == "slip" && parameters.friction == 0)
+      , factor_has_unit(parameters.factor_unit == "Pa/m")
     {}
 
 
@@ -30,8 +31,7 @@ namespace Impoint
     template <int dim>
     double GapMethod<dim>::unit(const unsigned int r) const
     {
-      const auto &grid = this->current.active->basis().grid();
-      return this->current.young / grid.size(this->boundary->ranges()[r].cell);
+      return this->current.young / sizes[r];
     }
 
 
@@ -39,9 +39,8 @@ namespace Impoint
     template <int dim>
     double GapMethod<dim>::factor(const unsigned int r) const
     {
-      return this->condition.factor_unit == "Pa/m" ?
-               this->condition.factor :
-               this->condition.factor * unit(r);
+      return factor_has_unit ? this->condition.factor :
+                               this->condition.factor * unit(r);
     }
 
 
@@ -51,11 +50,10 @@ namespace Impoint
                                    const unsigned int r,
                                    const double       area) const
     {
-      const double h = this->current.active->basis().grid().size(
-        this->boundary->ranges()[r].cell);
-      return gamma * std::max(1.,
-                              this->boundary->thickness() *
-                                Utilities::fixed_power<dim - 1>(h) / area);
+      return gamma *
+             std::max(1.,
+                      this->boundary->thickness() *
+                        Utilities::fixed_power<dim - 1>(sizes[r]) / area);
     }
 
 
@@ -126,6 +124,9 @@ namespace Impoint
     void GapMethod<dim>::begin_step(const Step<dim> &step)
     {
       Method<dim>::begin_step(step);
+      sizes.clear();
+      for (const auto &range : this->boundary->ranges())
+        sizes.push_back(step.active->basis().grid().size(range.cell));
       if (!this->active_now)
         return;
       frozen = false;
@@ -269,6 +270,8 @@ namespace Impoint
     void GapMethod<dim>::begin_correction()
     {
       first_contacts = contacts;
+      if (!this->condition.releasing)
+        return; // all touches
       for_active_ranges(*this,
                         *this->current.active,
                         [&](const unsigned int r, const unsigned int) {

@@ -35,8 +35,10 @@ namespace Impoint
     void GapMethod<dim>::make_links(const ActiveNodes<dim> &active,
                                     Links                  &links)
     {
-      if (shares_constraints())
-        shared.make_links(*this->boundary, active, links);
+      if (!shares_constraints())
+        return;
+      shared.find_groups(*this->boundary, active);
+      shared.append_links(links);
     }
 
 

@@ -8,6 +8,8 @@ namespace Impoint
     GapPatch<dim>::GapPatch(const bool normal_only, const unsigned int n_nodes)
       : normal_only(normal_only)
       , n_nodes(n_nodes)
+      , values(n_nodes, 0.)
+      , rows(n_nodes)
     {
       Assert(n_nodes <= largest_support, ExcInternalError());
     }

@@ -35,7 +35,7 @@ namespace Impoint
 
     template <int dim>
     TractionLaw LagrangeMultiplier<dim>::law(const unsigned int r,
-                                             const double) const
+                                             const double       area) const
     {
       TractionLaw law;
       law.augmented = true;
@@ -49,6 +49,8 @@ namespace Impoint
                                this->current.active->basis().degree() == 1 ?
                              best_shared_factor :
                              best_factor);
+      if (this->is_linear() && !user_chooses_factor)
+        law.gamma = this->enlarge(law.gamma, r, area);
       return law;
     }
 

@@ -17,11 +17,48 @@ namespace Impoint
 
 
     template <int dim>
-    void
-    SharedConstraints<dim>::make_links(const BoundaryParticles<dim> &boundary,
-                                       const ActiveNodes<dim>       &active,
-                                       Links                        &all_links)
+    bool SharedConstraints<dim>::anything_changed(
+      const BoundaryParticles<dim> &boundary,
+      const ActiveNodes<dim>       &active)
     {
+      std::vector<unsigned int> cells;
+      std::vector<double>       particles;
+      for (const auto &range : boundary.ranges())
+        {
+          cells.push_back(range.cell);
+          cells.push_back(range.end);
+          cells.push_back(active.position(range.cell) !=
+                          BackgroundGrid<dim>::nowhere);
+        }
+      for (unsigned int b = 0; b < boundary.n(); ++b)
+        {
+          const Point<dim>     x = boundary.position(b);
+          const Tensor<1, dim> normal =
+            boundary.vector(b, boundary.slots().normal);
+          particles.insert(particles.end(), x.begin_raw(), x.end_raw());
+          particles.insert(particles.end(),
+                           normal.begin_raw(),
+                           normal.end_raw());
+          particles.push_back(boundary.area(b));
+        }
+      const bool changed =
+        fresh || cells != last_cells || particles != last_particles;
+      fresh = false;
+      last_cells.swap(cells);
+      last_particles.swap(particles);
+      return Utilities::MPI::max(int(changed),
+                                 active.basis().grid().communicator());
+    }
+
+
+
+    template <int dim>
+    void
+    SharedConstraints<dim>::find_groups(const BoundaryParticles<dim> &boundary,
+                                        const ActiveNodes<dim>       &active)
+    {
+      if (!anything_changed(boundary, active))
+        return;
       clear();
       const auto                 &grid = active.basis().grid();
       const ConstrainedCells<dim> constrained(boundary, active);
@@ -60,8 +97,16 @@ namespace Impoint
                   ->active_cell_index());
               links.back().ranks.push_back(cells[i].rank);
             }
-          all_links.add(links.back().cells);
         }
+    }
+
+
+
+    template <int dim>
+    void SharedConstraints<dim>::append_links(Links &all_links) const
+    {
+      for (const Link &link : links)
+        all_links.add(link.cells);
     }
 
 

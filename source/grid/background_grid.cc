@@ -1,30 +1,19 @@
 #include <impoint/base/expression.h>
 #include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
-#include <impoint/grid/background_grid.h>
+#include <impoint/grid/background_grid_tree.h>
 
-#include <deal.II/boost_adaptors/bounding_box.h>
 #include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/fe/fe_simplex_p.h>
 #include <deal.II/fe/mapping_fe.h>
 #include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/grid_tools.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 
 namespace Impoint
 {
-  template <int dim>
-  struct BackgroundGrid<dim>::Tree
-  {
-    using Leaf = std::pair<BoundingBox<dim>, unsigned int>;
-    RTree<Leaf> boxes;
-  };
-
-
-
   template <int dim>
   BackgroundGrid<dim>::BackgroundGrid(const ParameterFile  &file,
                                       const GridParameters &parameters,
@@ -35,6 +24,7 @@ namespace Impoint
     build_cells();
     build_neighbors();
     detect_lattice();
+    tree->list_lattice(*this);
   }
 
 
@@ -392,8 +382,6 @@ namespace Impoint
     std::sort(found.begin(), found.end());
     return found;
   }
-
-
 
   template class BackgroundGrid<2>;
   template class BackgroundGrid<3>;

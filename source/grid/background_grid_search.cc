@@ -1,6 +1,6 @@
 // Which cell holds a place: the searches of BackgroundGrid.
 
-#include <impoint/grid/background_grid.h>
+#include <impoint/grid/background_grid_tree.h>
 
 #include <algorithm>
 
@@ -90,10 +90,73 @@ namespace Impoint
 
 
   template <int dim>
+  void BackgroundGrid<dim>::Tree::list_lattice(const BackgroundGrid &grid)
+  {
+    constexpr std::size_t most_places = 4; // a cell: else mostly holes
+    std::size_t           n           = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      n *= grid.frame.n_cells[d];
+    if (!grid.frame.exists || n > most_places * grid.n_cells())
+      return;
+    lattice.assign(n, nowhere);
+    for (unsigned int c = 0; c < grid.n_cells(); ++c)
+      if (grid.is_known(c))
+        {
+          const auto  place = grid.lattice_place(c);
+          std::size_t index = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            index = index * grid.frame.n_cells[d] + place[d];
+          lattice[index] = c;
+        }
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim> BackgroundGrid<dim>::Tree::nudge(const BackgroundGrid &grid)
+  {
+    Tensor<1, dim>   result;
+    constexpr double direction[3] = {0.7315, 0.5231, 0.4379};
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = 1e-9 * grid.h_min * direction[d];
+    return result;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  BackgroundGrid<dim>::Tree::cell_on_lattice(const BackgroundGrid &grid,
+                                             const Point<dim>     &x) const
+  {
+    if (lattice.empty())
+      return nowhere;
+    const Tensor<1, dim> place = grid.frame.coordinates(x + nudge(grid));
+    std::size_t          index = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const int n = grid.frame.n_cells[d];
+        if (!(place[d] >= 0 && place[d] < n))
+          return nowhere;
+        index = index * n + static_cast<std::size_t>(place[d]);
+      }
+    return lattice[index];
+  }
+
+
+
+  template <int dim>
   unsigned int BackgroundGrid<dim>::walk(const Point<dim>  &x,
                                          const unsigned int start,
                                          Point<dim>        &xi) const
   {
+    const unsigned int direct = tree->cell_on_lattice(*this, x);
+    if (direct != nowhere)
+      {
+        xi = to_reference(direct, x);
+        if (is_inside(xi))
+          return direct;
+      }
     unsigned int                c = start, previous = nowhere;
     std::array<unsigned int, 6> faces;
     for (unsigned int step = 0; step < 1000; ++step)
@@ -123,14 +186,14 @@ namespace Impoint
   unsigned int BackgroundGrid<dim>::find(const Point<dim> &x,
                                          Point<dim>       &xi) const
   {
-    // On a face several cells hold x. A nudge in a direction that is parallel
-    // to no face chooses the same one of them on every rank.
-    Tensor<1, dim> nudge;
-    const double   direction[3] = {0.7315, 0.5231, 0.4379};
-    for (unsigned int d = 0; d < dim; ++d)
-      nudge[d] = 1e-9 * h_min * direction[d];
-
-    const auto candidates = cells_near(x - 2. * nudge, x + 2. * nudge);
+    const unsigned int direct = tree->cell_on_lattice(*this, x);
+    if (direct != nowhere)
+      {
+        xi = to_reference(direct, x);
+        return direct;
+      }
+    const Tensor<1, dim> nudge = Tree::nudge(*this);
+    const auto candidates      = cells_near(x - 2. * nudge, x + 2. * nudge);
     for (const double sign : {1., -1., 0.})
       for (const unsigned int c : candidates)
         if (is_inside(to_reference(c, x + sign * nudge),
@@ -142,6 +205,10 @@ namespace Impoint
     return nowhere;
   }
 
+  template void
+  BackgroundGrid<2>::Tree::list_lattice(const BackgroundGrid<2> &);
+  template void
+  BackgroundGrid<3>::Tree::list_lattice(const BackgroundGrid<3> &);
   template Point<2>
   BackgroundGrid<2>::to_reference_curved(const unsigned int,
                                          const Point<2> &,

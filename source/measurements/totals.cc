@@ -42,7 +42,8 @@ namespace Impoint
         double operator()(const unsigned int p)
         {
           const double *state = points.data(p);
-          deformation.F       = points.deformation_gradient(p);
+          for (unsigned int i = 0; i < dim * dim; ++i)
+            deformation.F[i / dim][i % dim] = state[slots.F + i];
           for (int k = 0; k < Voigt<dim>::n; ++k)
             response.stress[k] = state[slots.stress + k];
           if constexpr (dim == 2)

@@ -158,14 +158,12 @@ namespace Impoint
   void MaterialPoints<dim>::set_end_state(const unsigned int p,
                                           const double      *end_state)
   {
-    constexpr unsigned int n_F     = dim * dim;
     constexpr unsigned int n_fixed = EndStates<dim>::n_fixed;
     double                *state   = this->data(p);
-    std::copy(end_state, end_state + n_F, state + slot.F);
-    std::copy(end_state + n_F, end_state + n_fixed, state + slot.stress);
-    std::copy(end_state + n_fixed,
-              end_state + n_fixed + carried_state.n_history,
-              state + slot.history);
+    AssertDimension(slot.stress, slot.F + dim * dim);
+    std::copy_n(end_state, n_fixed, state + slot.F);
+    for (unsigned int i = 0; i < carried_state.n_history; ++i)
+      state[slot.history + i] = end_state[n_fixed + i];
   }
 
   template class MaterialPoints<2>;

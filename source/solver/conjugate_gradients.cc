@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Impoint
@@ -47,6 +48,20 @@ namespace Impoint
                               std::log(result.reduction);
       return expected > (1. + 1. / result.iterations) * control.max_iterations;
     }
+
+    /** r -= q = A x */
+    template <int dim>
+    void subtract_product(const BlockMatrix<dim> &matrix,
+                          const NodeExchange     &nodes,
+                          std::vector<double>    &x,
+                          std::vector<double>    &q,
+                          std::vector<double>    &r)
+    {
+      nodes.update(x);
+      matrix.vmult(x.data(), q.data());
+      for (std::size_t i = 0; i < q.size(); ++i)
+        r[i] -= q[i];
+    }
   } // namespace
 
   template <int dim>
@@ -68,22 +83,20 @@ namespace Impoint
     r.resize(n_local);
     x.assign(n_local, 0.);
 
+    const auto nothing_to_do = [&]() {
+      result.converged = true;
+      result.reduction = 0;
+      x.assign(n, 0.);
+      return result;
+    };
     if (dot(b, b) == 0)
-      {
-        result.converged = true;
-        result.reduction = 0;
-        x.resize(n);
-        return result;
-      }
+      return nothing_to_do();
 
     const bool   started = preconditioner.start(b, x);
     const double solved  = started ? dot(b, x) : 0.;
     if (started)
       {
-        nodes.update(x);
-        matrix.vmult(x.data(), q.data());
-        for (std::size_t i = 0; i < n; ++i)
-          r[i] -= q[i];
+        subtract_product(matrix, nodes, x, q, r);
         preconditioner.clear(r);
       }
     preconditioner.vmult(r, z);
@@ -91,7 +104,12 @@ namespace Impoint
     double              r_dot_z = dot(r, z);
     const double        initial = solved + r_dot_z; // b . M b
     require_positive(initial, "r . M r");
-    result.converged = r_dot_z == 0;
+    result.start           = std::sqrt(initial);
+    const double reference = std::max(result.start, control.reference);
+    const double enough    = control.tolerance * reference;
+    if (result.start <= enough)
+      return nothing_to_do();
+    result.converged = std::sqrt(std::abs(r_dot_z)) <= enough;
 
     while (!result.converged && result.iterations < control.max_iterations &&
            !hopeless(control, result))
@@ -115,7 +133,7 @@ namespace Impoint
         const double previous = r_dot_z;
         r_dot_z               = dot(r, z);
         // at round-off the product may have either sign
-        result.reduction = std::sqrt(std::abs(r_dot_z) / initial);
+        result.reduction = std::sqrt(std::abs(r_dot_z)) / reference;
         result.converged = result.reduction <= control.tolerance;
         if (result.converged)
           break;

@@ -200,38 +200,36 @@ namespace Impoint
                                   const typename PointCloud<dim>::Range &range,
                                   const ArrayView<const unsigned int>    nodes)
   {
-    const unsigned int n     = n_static > 0 ? n_static : nodes.size();
-    const auto        &slots = points.slots();
-    double             sums[array_size<n_static> * (2 * dim + 1)];
-    std::fill(sums, sums + n * (2 * dim + 1), 0.);
+    const unsigned int     n      = n_static > 0 ? n_static : nodes.size();
+    const auto            &slots  = points.slots();
+    constexpr unsigned int n_sums = 2 * dim + 1;
+    double                 sums[array_size<n_static> * n_sums];
+    std::fill(sums, sums + n * n_sums, 0.);
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
         const double *N     = points.support(p);
         const double *state = points.data(p);
-        double        moving[2 * dim];
+        double        moving[n_sums];
+        moving[0] = state[slots.mass];
         for (unsigned int d = 0; d < dim; ++d)
           {
-            moving[d]       = state[slots.v + d];
-            moving[dim + d] = state[slots.a + d];
+            moving[1 + d]       = moving[0] * state[slots.v + d];
+            moving[1 + dim + d] = moving[0] * state[slots.a + d];
           }
-        for (unsigned int a = 0; a < n; ++a)
-          {
-            const double part = N[a] * state[slots.mass];
-            double      *sum  = sums + a * (2 * dim + 1);
-            sum[0] += part;
-            for (unsigned int d = 0; d < 2 * dim; ++d)
-              sum[d + 1] += part * moving[d];
-          }
+        for (unsigned int s = 0; s < n_sums; ++s)
+#pragma GCC unroll 1 // for vector instructions
+          for (unsigned int a = 0; a < n; ++a)
+            sums[s * n + a] += N[a] * moving[s];
       }
     for (unsigned int a = 0; a < n; ++a)
       {
-        const double      *sum = sums + a * (2 * dim + 1);
-        const unsigned int i   = nodes[a];
-        masses.local_element(i) += sum[0];
+        const unsigned int i = nodes[a];
+        masses.local_element(i) += sums[a];
         for (unsigned int d = 0; d < dim; ++d)
           {
-            velocities.local_element(i * dim + d) += sum[d + 1];
-            accelerations.local_element(i * dim + d) += sum[dim + d + 1];
+            velocities.local_element(i * dim + d) += sums[(1 + d) * n + a];
+            accelerations.local_element(i * dim + d) +=
+              sums[(1 + dim + d) * n + a];
           }
       }
   }

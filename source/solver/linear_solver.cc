@@ -75,7 +75,7 @@ namespace Impoint
 
     IterationResult iterate(const LinearProblem<dim>  &problem,
                             const std::vector<double> &b,
-                            const IterationControl    &control,
+                            IterationControl           control,
                             std::vector<double>       &x);
 
     unsigned int most_iterations_of_old() const;
@@ -104,9 +104,11 @@ namespace Impoint
     bool                    incomplete_is_current = false;
     BandPreconditioner<dim> band;
 
-    bool         exists  = false; // factor or band, for some matrix
-    bool         current = false; // for this very matrix
-    bool         proved  = false; // current, and one solve was enough
+    bool         exists    = false; // factor or band, for some matrix
+    bool         current   = false; // for this very matrix
+    bool         proved    = false; // current, and one solve was enough
+    bool         improves  = false; // the solve at work: the last solution
+    double       reference = 0;     // preconditioned residual of that
     unsigned int iterations_when_new = 0;
 
     // old factors that did not serve: how many matrices in a row are to be
@@ -155,13 +157,15 @@ namespace Impoint
   IterationResult
   LinearSolver<dim>::Implementation::iterate(const LinearProblem<dim>  &problem,
                                              const std::vector<double> &b,
-                                             const IterationControl    &control,
+                                             IterationControl           control,
                                              std::vector<double>       &x)
   {
+    control.reference = improves ? reference : 0.;
     const Preconditioner &preconditioner =
       iterative ? static_cast<const Preconditioner &>(band) : factor;
     const IterationResult result = conjugate_gradients(
       problem.matrix, problem.nodes, preconditioner, b, control, x);
+    reference = improves ? reference : result.start;
     counters.linear_iterations += result.iterations;
     // the first iteration with its own factor is the direct solve
     if (!iterative && current && result.iterations > 0)
@@ -323,10 +327,13 @@ namespace Impoint
   void LinearSolver<dim>::solve(const LinearProblem<dim>  &problem,
                                 const std::vector<double> &b,
                                 std::vector<double>       &x,
-                                const double               looser)
+                                const double               looser,
+                                const double               further)
   {
-    Implementation &data      = *implementation;
-    const double    tolerance = data.parameters.loosened(looser);
+    Implementation &data = *implementation;
+    data.improves        = further > 0 && data.symmetric && data.iterative;
+    const double tolerance =
+      data.parameters.loosened(data.improves ? further : looser);
     Assert(b.size() == problem.pattern.n_rows() * dim,
            ExcDimensionMismatch(b.size(), problem.pattern.n_rows() * dim));
     if (!data.symmetric)

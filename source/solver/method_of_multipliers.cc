@@ -78,6 +78,7 @@ namespace Impoint
     const Multipliers            &step,
     const Vector                 &forces,
     const double                  looser,
+    const double                  further,
     const std::vector<Direction> &directions)
   {
     Direction p;
@@ -86,7 +87,7 @@ namespace Impoint
     Vector right(forces);
     right *= -1.;
     p.displacements.reinit(place);
-    solve(right, looser, p.displacements);
+    solve(right, looser, further, p.displacements);
 
     Multipliers trial = present;
     add(trial, 1., p.multipliers);
@@ -120,7 +121,9 @@ namespace Impoint
                                  const bool    exact,
                                  Vector       &delta)
   {
-    constexpr double       tolerance = 1e-13, coarse = 1e-4;
+    constexpr double tolerance = 1e-13, coarse = 1e-4;
+    // energy of what is left, where a further correction follows
+    constexpr double       coarse_solution = 1e4;
     constexpr unsigned int max_solutions = 100, most_idle = 6;
     // A combination of multipliers that answers less than this part of itself
     // is one of constraints that depend on each other, but for round-off.
@@ -145,10 +148,12 @@ namespace Impoint
                                             step,
                                             forces,
                                             std::max(1., reference / rest),
+                                            exact ? 1. : coarse_solution,
                                             directions));
         const Direction &p      = directions.back();
         const double     length = p.effect.norm_sqr();
-        if (length <= dependent * dependent * p.forces.norm_sqr())
+        if (length <= dependent * dependent * p.forces.norm_sqr() ||
+            p.displacements.l2_norm() == 0.)
           break;
         const double part = -(forces * p.effect) / length;
         add(present, part, p.multipliers);

@@ -2,6 +2,7 @@
 #include <impoint/solver/motion.h>
 
 #include <algorithm>
+#include <array>
 
 namespace Impoint
 {
@@ -9,15 +10,18 @@ namespace Impoint
 
   namespace
   {
-    template <int dim>
+    /** The vectors of nodes, with @p n_before numbers before each and @p m in
+     * all. */
+    template <int dim, int m = dim>
     void gather_at(const ArrayView<const unsigned int> nodes,
                    const double                       *local,
-                   std::vector<double>                &values)
+                   std::vector<double>                &values,
+                   const unsigned int                  n_before = 0)
     {
-      values.resize(nodes.size() * dim);
+      values.resize(nodes.size() * m);
       for (unsigned int a = 0; a < nodes.size(); ++a)
         for (unsigned int d = 0; d < dim; ++d)
-          values[a * dim + d] = local[nodes[a] * dim + d];
+          values[a * m + n_before + d] = local[nodes[a] * dim + d];
     }
 
     /** At the end of the step, of the active nodes and ghosts. */
@@ -32,16 +36,16 @@ namespace Impoint
       return values;
     }
 
-    /** sum_a N_a u_a */
-    template <int dim, int n_static>
-    inline Tensor<1, dim>
+    /** sum_a N_a u_a; the @p m numbers u_a stand next to each other. */
+    template <int m, int n_static>
+    DEAL_II_ALWAYS_INLINE inline std::array<double, m>
     interpolate(const unsigned int n_nodes, const double *N, const double *u)
     {
-      const unsigned int n = n_static > 0 ? n_static : n_nodes;
-      Tensor<1, dim>     value;
+      const unsigned int    n = n_static > 0 ? n_static : n_nodes;
+      std::array<double, m> value{};
       for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int d = 0; d < dim; ++d)
-          value[d] += N[a] * u[a * dim + d];
+        for (unsigned int d = 0; d < m; ++d)
+          value[d] += N[a] * u[a * m + d];
       return value;
     }
 
@@ -49,14 +53,15 @@ namespace Impoint
     template <int dim, int n_static>
     inline Tensor<2, dim> interpolate_gradient(const unsigned int n_nodes,
                                                const double      *G,
-                                               const double      *u)
+                                               const double      *u,
+                                               const unsigned int stride)
     {
       const unsigned int n = n_static > 0 ? n_static : n_nodes;
       Tensor<2, dim>     gradient;
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            gradient[i][j] += u[a * dim + i] * G[a * dim + j];
+            gradient[i][j] += u[a * stride + i] * G[a * dim + j];
       return gradient;
     }
 
@@ -71,36 +76,39 @@ namespace Impoint
         : points(points)
         , slots(points.slots())
         , inertia(inertia)
+        , filtered_part(inertia != nullptr ? inertia->filtered_part() : 0.)
         , end_states(end_states)
         , own_end_state(EndStates<dim>::n_fixed + points.carried().n_history)
       {}
 
-      /** @p u, @p a: displacements and accelerations of the cell's nodes; @p
-       * seen: the velocities that they saw at the start, or null. */
-      template <int n_static>
+      /** @p motion: the displacement of each of the cell's nodes and, if m is
+       * more than dim, its acceleration; @p seen: the velocities that they saw
+       * at the start, or null. */
+      template <int m, int n_static>
       void run(const typename PointCloud<dim>::Range &range,
                const unsigned int                     n,
-               const double                          *u,
-               const double                          *a,
+               const double                          *motion,
                const double                          *seen)
       {
         for (unsigned int p = range.begin; p < range.end; ++p)
           {
-            const double *N = points.support(p);
-            displace(p, interpolate<dim, n_static>(n, N, u));
+            const double *N    = points.support(p);
+            const auto    here = interpolate<m, n_static>(n, N, motion);
+            displace(p, here.data());
             if (const double *end_state = end_states.data(p))
               points.set_end_state(p, end_state);
             else
-              deform(p, interpolate_gradient<dim, n_static>(n, N + n, u));
+              deform(p,
+                     interpolate_gradient<dim, n_static>(n, N + n, motion, m));
             if (seen != nullptr)
-              filter(p, interpolate<dim, n_static>(n, N, seen));
-            if (inertia != nullptr)
-              accelerate(p, interpolate<dim, n_static>(n, N, a));
+              filter(p, interpolate<dim, n_static>(n, N, seen).data());
+            if constexpr (m > dim)
+              accelerate(p, here.data() + dim);
           }
       }
 
     private:
-      void displace(const unsigned int p, const Tensor<1, dim> &u)
+      void displace(const unsigned int p, const double *u)
       {
         double *state = points.data(p);
         for (unsigned int d = 0; d < dim; ++d)
@@ -124,15 +132,14 @@ namespace Impoint
 
       /** Takes the filtered part of what the grid doesn't see of the velocity.
        */
-      void filter(const unsigned int p, const Tensor<1, dim> &seen)
+      void filter(const unsigned int p, const double *seen)
       {
         double *state = points.data(p);
         for (unsigned int d = 0; d < dim; ++d)
-          state[slots.v + d] -=
-            inertia->filtered_part() * (state[slots.v + d] - seen[d]);
+          state[slots.v + d] -= filtered_part * (state[slots.v + d] - seen[d]);
       }
 
-      void accelerate(const unsigned int p, const Tensor<1, dim> &a)
+      void accelerate(const unsigned int p, const double *a)
       {
         double *state = points.data(p);
         for (unsigned int d = 0; d < dim; ++d)
@@ -147,6 +154,7 @@ namespace Impoint
       MaterialPoints<dim>                       &points;
       const typename MaterialPoints<dim>::Slots &slots;
       const Inertia<dim>                        *inertia;
+      const double                               filtered_part;
       const EndStates<dim>                      &end_states;
       Materials::Deformation<dim>                deformation;
       Materials::Response<dim>                   response;
@@ -171,10 +179,14 @@ namespace Impoint
         gather_at<dim>(nodes, u.begin(), cell_u);
         with_support_size<dim>(nodes.size(), [&](const auto n_static) {
           for (unsigned int p = range.begin; p < range.end; ++p)
-            places[p] =
-              points.position(p) + interpolate<dim, n_static>(nodes.size(),
-                                                              points.support(p),
-                                                              cell_u.data());
+            {
+              const auto    u = interpolate<dim, n_static>(nodes.size(),
+                                                        points.support(p),
+                                                        cell_u.data());
+              const double *x = points.data(p);
+              for (unsigned int d = 0; d < dim; ++d)
+                places[p][d] = x[d] + u[d];
+            }
         });
       }
   }
@@ -194,9 +206,9 @@ namespace Impoint
         gather_at<dim>(nodes, accelerations.begin(), cell_a);
         for (unsigned int p = range.begin; p < range.end; ++p)
           {
-            const Tensor<1, dim> a = interpolate<dim, -1>(nodes.size(),
-                                                          points.support(p),
-                                                          cell_a.data());
+            const auto a = interpolate<dim, -1>(nodes.size(),
+                                                points.support(p),
+                                                cell_a.data());
             for (unsigned int d = 0; d < dim; ++d)
               points.data(p)[points.slots().a + d] = a[d];
           }
@@ -213,16 +225,13 @@ namespace Impoint
                      MaterialPoints<dim>    &points)
   {
     CellUpdate<dim>     update(points, inertia, end_states);
-    std::vector<double> accelerations, cell_u, cell_a, cell_seen;
+    std::vector<double> accelerations, motion, cell_seen;
     if (inertia != nullptr)
       accelerations = nodal_accelerations(active, u, *inertia);
     const bool filters = inertia != nullptr && inertia->filtered_part() > 0;
     for (unsigned int k = 0; k < active.n_material_cells(); ++k)
       {
         const auto nodes = active.nodes(k);
-        gather_at<dim>(nodes, u.begin(), cell_u);
-        if (inertia != nullptr)
-          gather_at<dim>(nodes, accelerations.data(), cell_a);
         if (filters)
           {
             cell_seen.resize(nodes.size() * dim);
@@ -231,11 +240,21 @@ namespace Impoint
                 inertia->seen_velocity(nodes[i / dim] * dim + i % dim);
           }
         with_support_size<dim>(nodes.size(), [&](const auto n_static) {
-          update.template run<n_static>(points.ranges()[k],
-                                        nodes.size(),
-                                        cell_u.data(),
-                                        cell_a.data(),
-                                        filters ? cell_seen.data() : nullptr);
+          constexpr int n   = decltype(n_static)::value;
+          const auto    run = [&](const auto m) {
+            update.template run<m, n>(points.ranges()[k],
+                                      nodes.size(),
+                                      motion.data(),
+                                      filters ? cell_seen.data() : nullptr);
+          };
+          if (inertia == nullptr)
+            {
+              gather_at<dim>(nodes, u.begin(), motion);
+              return run(std::integral_constant<int, dim>());
+            }
+          gather_at<dim, 2 * dim>(nodes, u.begin(), motion);
+          gather_at<dim, 2 * dim>(nodes, accelerations.data(), motion, dim);
+          run(std::integral_constant<int, 2 * dim>());
         });
       }
   }

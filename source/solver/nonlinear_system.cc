@@ -27,10 +27,13 @@ namespace Impoint
     , solver(parameters, counters, active.basis().grid().communicator())
     , multipliers(assembly,
                   methods,
-                  [this](const Vector &right, const double looser, Vector &x) {
+                  [this](const Vector &right,
+                         const double  looser,
+                         const double  further,
+                         Vector       &x) {
                     Vector free(right);
                     cut(held, false, free);
-                    solver.solve(problem, free, x, looser);
+                    solver.solve(problem, free, x, looser, further);
                     x.update_ghost_values();
                     cut(held, false, x);
                   })
@@ -78,10 +81,7 @@ namespace Impoint
       (points.small_strain() && points.constant_tangent()) ||
       Utilities::MPI::n_mpi_processes(active.basis().grid().communicator()) > 1;
     for (const auto &method : methods)
-      {
-        problem.symmetric &= method->is_symmetric();
-        problem.serves_long |= method->parameters().has_multipliers();
-      }
+      problem.symmetric &= method->is_symmetric();
     problem.points.resize(active.n_nodes());
     problem.regularisation.assign(active.n_nodes(), 0.);
     const auto &basis = active.basis();

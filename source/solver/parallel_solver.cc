@@ -129,7 +129,8 @@ namespace Impoint
   void ParallelSolver<dim>::solve(const LinearProblem<dim> &local,
                                   const Vector             &b,
                                   Vector                   &x,
-                                  const double              looser)
+                                  const double              looser,
+                                  const double              further)
   {
     std::vector<double> right(b.begin(), b.end()), solution;
     if (way == Way::on_root)
@@ -138,7 +139,7 @@ namespace Impoint
       solve_unsymmetric(local, right, solution, looser);
     else
       act(local, [&](const LinearProblem<dim> &problem) {
-        solver.solve(problem, right, solution, looser);
+        solver.solve(problem, right, solution, looser, further);
       });
     std::copy(solution.begin(), solution.end(), x.begin());
   }

@@ -5,24 +5,39 @@
 
 namespace Impoint
 {
+  using NodalVector = LinearAlgebra::distributed::Vector<double>;
+
   template <int dim>
-  LinearAlgebra::distributed::Vector<double>
-  body_force(const MaterialPoints<dim>        &points,
-             const ActiveNodes<dim>           &active,
-             const std::vector<BodyLoad<dim>> &body_loads,
-             const double                      at)
+  NodalVector body_force(const MaterialPoints<dim>        &points,
+                         const ActiveNodes<dim>           &active,
+                         const std::vector<BodyLoad<dim>> &body_loads,
+                         const double                      at,
+                         const NodalVector                *masses)
   {
-    LinearAlgebra::distributed::Vector<double> forces(active.unknowns());
+    NodalVector forces(active.unknowns());
     if (std::all_of(body_loads.begin(), body_loads.end(), [](const auto &load) {
           return load.per_mass.is_zero();
         }))
       return forces;
     const unsigned int          mass = points.slots().mass;
-    std::vector<Tensor<1, dim>> constant;
+    std::vector<Tensor<1, dim>> uniform;
+    bool                        everywhere = masses != nullptr;
     for (const auto &load : body_loads)
-      constant.push_back(load.per_mass.is_constant() ?
-                           load.per_mass.vector({}, at) :
-                           Tensor<1, dim>());
+      {
+        uniform.push_back(load.per_mass.is_constant() ?
+                            load.per_mass.vector({}, at) :
+                            Tensor<1, dim>());
+        everywhere = everywhere && load.per_mass.is_constant() &&
+                     uniform.back() == uniform.front();
+      }
+    if (everywhere)
+      {
+        for (unsigned int i = 0; i < active.n_owned_nodes(); ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            forces.local_element(i * dim + d) =
+              masses->local_element(i) * uniform.front()[d];
+        return forces;
+      }
     const auto place = [&](const unsigned int p, const unsigned int body) {
       return body_loads[body].of_start ?
                points.position(p) - points.vector(p, points.slots().u) :
@@ -42,7 +57,7 @@ namespace Impoint
               const double        *N     = points.support(p);
               const Tensor<1, dim> load =
                 points.data(p)[mass] * (force.is_constant() ?
-                                          constant[body] :
+                                          uniform[body] :
                                           force.vector(place(p, body), at));
               for (unsigned int a = 0; a < nodes.size(); ++a)
                 for (unsigned int d = 0; d < dim; ++d)
@@ -58,14 +73,14 @@ namespace Impoint
     return forces;
   }
 
-  template LinearAlgebra::distributed::Vector<double>
-  body_force(const MaterialPoints<2> &,
-             const ActiveNodes<2> &,
-             const std::vector<BodyLoad<2>> &,
-             const double);
-  template LinearAlgebra::distributed::Vector<double>
-  body_force(const MaterialPoints<3> &,
-             const ActiveNodes<3> &,
-             const std::vector<BodyLoad<3>> &,
-             const double);
+  template NodalVector body_force(const MaterialPoints<2> &,
+                                  const ActiveNodes<2> &,
+                                  const std::vector<BodyLoad<2>> &,
+                                  const double,
+                                  const NodalVector *);
+  template NodalVector body_force(const MaterialPoints<3> &,
+                                  const ActiveNodes<3> &,
+                                  const std::vector<BodyLoad<3>> &,
+                                  const double,
+                                  const NodalVector *);
 } // namespace Impoint

@@ -58,28 +58,39 @@ namespace Impoint
 
 
 
-  /** Of the grid's cells that this rank knows; filled < 0: the cell is not
-   * active. */
   template <int dim>
-  std::vector<typename GhostPenalty<dim>::Content>
-  GhostPenalty<dim>::contents_with_ghosts() const
+  void GhostPenalty<dim>::set_content(const unsigned int c,
+                                      const Content     &value)
   {
-    Content nothing;
+    contents[c] = value;
+    known.push_back(c);
+  }
+
+
+
+  /** Of active cells and their neighbours; filled < 0: the cell is not active.
+   */
+  template <int dim>
+  void GhostPenalty<dim>::find_contents()
+  {
+    const auto &grid = active.basis().grid();
+    Content     nothing;
     nothing.filled = -1;
-    std::vector<Content> contents(active.basis().grid().n_cells(), nothing);
+    contents.resize(grid.n_cells(), nothing);
+    for (const unsigned int c : known)
+      contents[c] = nothing;
+    known.clear();
     for (unsigned int k = 0; k < active.n_cells(); ++k)
-      contents[active.cell(k)] = content(k);
-    if (Utilities::MPI::n_mpi_processes(active.basis().grid().communicator()) >
-        1)
-      share(contents);
-    return contents;
+      set_content(active.cell(k), content(k));
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
+      share_contents();
   }
 
 
 
   /** Asks other ranks for their cells at faces of active ones. */
   template <int dim>
-  void GhostPenalty<dim>::share(std::vector<Content> &contents) const
+  void GhostPenalty<dim>::share_contents()
   {
     const auto &grid = active.basis().grid();
     std::map<unsigned int, std::vector<CellId::binary_type>> questions;
@@ -109,7 +120,7 @@ namespace Impoint
     for (const auto &answer :
          Utilities::MPI::some_to_some(grid.communicator(), answers))
       for (unsigned int i = 0; i < answer.second.size(); ++i)
-        contents[asked.at(answer.first)[i]] = answer.second[i];
+        set_content(asked.at(answer.first)[i], answer.second[i]);
   }
 
 
@@ -118,9 +129,8 @@ namespace Impoint
    * face
    * @p f: each face once. Of faces with hanging nodes the finer cells do. */
   template <int dim>
-  bool GhostPenalty<dim>::is_link(const unsigned int          c,
-                                  const unsigned int          f,
-                                  const std::vector<Content> &contents) const
+  bool GhostPenalty<dim>::is_link(const unsigned int c,
+                                  const unsigned int f) const
   {
     const auto        &cell     = active.basis().grid().cell(c);
     const auto        &neighbor = cell->neighbor(f);
@@ -135,16 +145,45 @@ namespace Impoint
 
 
 
+  /** Points of a kept grid fill what they filled at the start. */
+  template <int dim>
+  bool GhostPenalty<dim>::contents_stay()
+  {
+    if (!points.carried().keeps_grid)
+      return false;
+    std::vector<unsigned int> cells;
+    for (unsigned int k = 0; k < active.n_cells(); ++k)
+      cells.push_back(active.cell(k));
+    last_cells.swap(cells);
+    return Utilities::MPI::min(int(last_cells == cells),
+                               active.basis().grid().communicator()) != 0;
+  }
+
+
+
   template <int dim>
   void GhostPenalty<dim>::find_links(Links &links)
   {
-    const auto &grid     = active.basis().grid();
-    const auto  contents = contents_with_ghosts();
+    if (!contents_stay())
+      {
+        find_contents();
+        find_faces();
+      }
+    first_link = links.size();
+    for (const Face &face : faces)
+      links.add({face.first, face.second});
+  }
+
+
+
+  template <int dim>
+  void GhostPenalty<dim>::find_faces()
+  {
+    const auto &grid = active.basis().grid();
     // the softer one holds enough; a cell without material has no say
     const auto lower = [&](const double a, const double b) {
       return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);
     };
-    first_link = links.size();
     std::vector<Face> before;
     before.swap(faces);
     is_held.assign(active.n_cells(), false);
@@ -158,7 +197,7 @@ namespace Impoint
               continue;
             is_held[k] |=
               contents[cell->neighbor(f)->active_cell_index()].filled > 0;
-            if (!is_link(c, f, contents))
+            if (!is_link(c, f))
               continue;
             const unsigned int n = cell->neighbor(f)->active_cell_index();
             const double       h = 0.5 * (grid.volume(c) + grid.volume(n)) /
@@ -170,7 +209,6 @@ namespace Impoint
               factor * lower(contents[c].young, contents[n].young) / (h * h);
             faces.back().density =
               factor * lower(contents[c].density, contents[n].density);
-            links.add({c, n});
             // those of the same links stay, if no other link changes
             const std::size_t l = faces.size() - 1;
             if (l < before.size() && before[l].first == c &&

@@ -7,6 +7,9 @@ namespace Impoint
 {
   namespace
   {
+    // Loops over nodes that are not unrolled (the pragmas below) become vector
+    // instructions; unrolled ones do not.
+
     template <int dim>
     constexpr int voigt_index(const int i, const int j)
     {
@@ -18,7 +21,7 @@ namespace Impoint
 
     /** grad u = sum_a u_a x G_a (at the places of the supports). */
     template <int dim>
-    Tensor<2, dim>
+    DEAL_II_ALWAYS_INLINE inline Tensor<2, dim>
     displacement_gradient(const int n, const double *u, const double *gradients)
     {
       Tensor<2, dim> grad_u;
@@ -29,121 +32,119 @@ namespace Impoint
       return grad_u;
     }
 
-    /** Gradients at the end of the step: G_a f^-1. */
+    /** The gradients dN_a/dx_d of a support at [d * n + a]: the kernels below
+     * go over all nodes at once. */
     template <int dim>
-    void push_forward(const int             n,
-                      const Tensor<2, dim> &f,
-                      const double         *start,
-                      double               *end)
+    DEAL_II_ALWAYS_INLINE inline void
+    by_component(const int n, const double *gradients, double *g)
+    {
+      for (int d = 0; d < dim; ++d)
+        for (int a = 0; a < n; ++a)
+          g[d * n + a] = gradients[a * dim + d];
+    }
+
+    /** The same at the end of the step: G_a f^-1. */
+    template <int dim>
+    DEAL_II_ALWAYS_INLINE inline void push_forward(const int             n,
+                                                   const Tensor<2, dim> &f,
+                                                   const double *gradients,
+                                                   double       *g)
     {
       const Tensor<2, dim> inverse = invert(f);
-      for (int a = 0; a < n; ++a)
-        for (int j = 0; j < dim; ++j)
+      for (int d = 0; d < dim; ++d)
+        for (int a = 0; a < n; ++a)
           {
             double sum = 0;
             for (int i = 0; i < dim; ++i)
-              sum += start[a * dim + i] * inverse[i][j];
-            end[a * dim + j] = sum;
+              sum += gradients[a * dim + i] * inverse[i][d];
+            g[d * n + a] = sum;
           }
     }
 
     /** r_a += V B_a^T tau */
     template <int dim>
-    void add_force(const int               n,
-                   const double            volume,
-                   const VoigtVector<dim> &stress,
-                   const double           *gradients,
-                   double                 *residual)
+    DEAL_II_ALWAYS_INLINE inline void add_force(const int               n,
+                                                const double            volume,
+                                                const VoigtVector<dim> &stress,
+                                                const double           *g,
+                                                double *residual)
     {
-      for (int a = 0; a < n; ++a)
-        for (int i = 0; i < dim; ++i)
+      for (int i = 0; i < dim; ++i)
+        for (int a = 0; a < n; ++a)
           {
             double sum = 0;
             for (int j = 0; j < dim; ++j)
-              sum += stress[voigt_index<dim>(i, j)] * gradients[a * dim + j];
+              sum += stress[voigt_index<dim>(i, j)] * g[j * n + a];
             residual[a * dim + i] += volume * sum;
           }
     }
 
-    /** K_ab += V B_a^T c B_b, for b >= a only if c is symmetric, and the
-     * geometric part g_ab += V g_a . tau g_b, b >= a. */
-    template <int dim, bool symmetric>
-    void add_stiffness(const int                       n,
-                       const double                    volume,
-                       const Materials::Response<dim> &response,
-                       const bool                      geometric,
-                       const double                   *gradients,
-                       double                         *blocks,
-                       double                         *diagonal)
+    /** K_ij,ab += V (B_a^T c B_b + (g_a . tau g_b) 1)_ij, the latter if @p
+     * geometric; for j >= i only if c is symmetric. */
+    template <int dim, int size, bool symmetric>
+    DEAL_II_ALWAYS_INLINE inline void
+    add_stiffness(const int                       n,
+                  const double                    volume,
+                  const Materials::Response<dim> &response,
+                  const bool                      geometric,
+                  const double                   *g,
+                  double                         *K)
     {
-      constexpr int n_v = Voigt<dim>::n;
-      double        stress_column[dim]; // V tau g_b
-      double        columns[n_v * dim]; // V c B_b
-
-      // a copy that the compiler knows the writes below not to change
+      // copies that the compiler knows the writes below not to change
       const VoigtMatrix<dim> tangent = response.tangent;
-      for (int b = 0; b < n; ++b)
-        {
-          const double *g = gradients + b * dim;
-          for (int k = 0; k < n_v; ++k)
-            for (int j = 0; j < dim; ++j)
+      const VoigtVector<dim> stress  = response.stress;
+      double                 factors[dim * size]; // of g_a
+      for (int i = 0; i < dim; ++i)
+        for (int j = symmetric ? i : 0; j < dim; ++j)
+          {
+            for (int k = 0; k < dim; ++k)
               {
-                double sum = 0;
+                double c[dim];
                 for (int l = 0; l < dim; ++l)
-                  sum += tangent[k * n_v + voigt_index<dim>(j, l)] * g[l];
-                columns[k * dim + j] = volume * sum;
-              }
-          for (int i = 0; i < dim; ++i)
-            {
-              stress_column[i] = 0;
-              for (int j = 0; j < dim; ++j)
-                stress_column[i] +=
-                  volume * response.stress[voigt_index<dim>(i, j)] * g[j];
-            }
-          for (int a = 0; a < (symmetric ? b + 1 : n); ++a)
-            {
-              const double *h     = gradients + a * dim;
-              double       *block = blocks + (a * n + b) * dim * dim;
-              for (int i = 0; i < dim; ++i)
-                for (int j = 0; j < dim; ++j)
+                  c[l] =
+                    volume *
+                    (tangent[voigt_index<dim>(i, k) * Voigt<dim>::n +
+                             voigt_index<dim>(j, l)] +
+                     (geometric && i == j ? stress[voigt_index<dim>(k, l)] :
+                                            0.));
+#pragma GCC unroll 1
+                for (int b = 0; b < n; ++b)
                   {
                     double sum = 0;
                     for (int l = 0; l < dim; ++l)
-                      sum += h[l] * columns[voigt_index<dim>(i, l) * dim + j];
-                    block[i * dim + j] += sum;
+                      sum += c[l] * g[l * n + b];
+                    factors[k * n + b] = sum;
                   }
-              if (geometric && a <= b)
-                {
-                  double sum = 0;
-                  for (int i = 0; i < dim; ++i)
-                    sum += h[i] * stress_column[i];
-                  diagonal[a * n + b] += sum;
-                }
-            }
-        }
+              }
+            double *K_ij = K + (i * dim + j) * n * n;
+            for (int a = 0; a < n; ++a)
+              {
+                double *row = K_ij + a * n;
+#pragma GCC unroll 1
+                for (int b = 0; b < n; ++b)
+                  {
+                    double sum = row[b];
+                    for (int k = 0; k < dim; ++k)
+                      sum += g[k * n + a] * factors[k * n + b];
+                    row[b] = sum;
+                  }
+              }
+          }
     }
 
-    /** Adds up a cell's matrix: blocks, of which the upper ones may stand for
-     * all, and diagonal parts, of which the upper ones do. */
+    /** Adds K_ij,ab, of which j >= i may stand for all, to the cell's matrix.
+     */
     template <int dim, bool symmetric>
-    void complete(const int     n,
-                  const double *blocks,
-                  const double *diagonal,
-                  double       *matrix)
+    DEAL_II_ALWAYS_INLINE inline void
+    add_blocks(const int n, const double *K, double *matrix)
     {
-      for (int b = 0; b < n; ++b)
-        for (int a = 0; a <= b; ++a)
+      for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b)
           for (int i = 0; i < dim; ++i)
             for (int j = 0; j < dim; ++j)
-              {
-                const int    upper     = (a * n + b) * dim * dim + i * dim + j;
-                const int    lower     = (b * n + a) * dim * dim + j * dim + i;
-                const double geometric = i == j ? diagonal[a * n + b] : 0.;
-                matrix[upper] += blocks[upper] + geometric;
-                if (a != b)
-                  matrix[lower] +=
-                    blocks[symmetric ? upper : lower] + geometric;
-              }
+              *matrix++ += symmetric && j < i ?
+                             K[((j * dim + i) * n + b) * n + a] :
+                             K[((i * dim + j) * n + a) * n + b];
     }
   } // namespace
 
@@ -216,14 +217,11 @@ namespace Impoint
   {
     constexpr int size = array_size<n_static>;
     const int     n    = n_static > 0 ? n_static : system.n;
-    double        blocks[size * size * dim * dim], diagonal[size * size];
+    double        K[size * size * dim * dim];
     if (system.matrix)
-      {
-        std::fill(blocks, blocks + n * n * dim * dim, 0.);
-        std::fill(diagonal, diagonal + n * n, 0.);
-      }
+      std::fill(K, K + n * n * dim * dim, 0.);
 
-    double                      pushed[size * dim];
+    double                      g[size * dim];
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
     const auto                 &range = points.ranges()[k];
@@ -235,28 +233,27 @@ namespace Impoint
         respond(p, grad_u, system.matrix != nullptr, deformation, response);
         const bool finite = !points.material(p).small_strain();
         if (finite)
-          {
-            push_forward<dim>(n,
-                              points.map_of_supports(deformation),
-                              gradients,
-                              pushed);
-            gradients = pushed;
-          }
+          push_forward<dim>(n,
+                            points.map_of_supports(deformation),
+                            gradients,
+                            g);
+        else
+          by_component<dim>(n, gradients, g);
         const double volume = points.data(p)[points.slots().volume];
-        add_force<dim>(n, volume, response.stress, gradients, system.residual);
+        add_force<dim>(n, volume, response.stress, g, system.residual);
         if (system.matrix)
-          add_stiffness<dim, symmetric>(
-            n, volume, response, finite, gradients, blocks, diagonal);
+          add_stiffness<dim, size, symmetric>(
+            n, volume, response, finite, g, K);
       }
     if (system.matrix)
-      complete<dim, symmetric>(n, blocks, diagonal, system.matrix);
+      add_blocks<dim, symmetric>(n, K, system.matrix);
   }
 
 
 
   /** One small-strain material with the same tangent c everywhere: the points
-   * contribute M_ab = sum V g_a x g_b only, and K_ab,ij = c_ikjl M_ab,kl once a
-   * cell. */
+   * contribute M_kl,ab = sum V g_a,k g_b,l only (l >= k stand for all), and
+   * K_ij,ab = c_ikjl M_kl,ab once a cell. */
   template <int dim>
   template <int n_static>
   void InternalForce<dim>::add_constant(const unsigned int k,
@@ -267,6 +264,7 @@ namespace Impoint
     double        moments[size * size * dim * dim];
     std::fill(moments, moments + n * n * dim * dim, 0.);
 
+    double                      g[size * dim];
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
     const auto                 &range = points.ranges()[k];
@@ -279,37 +277,44 @@ namespace Impoint
                 p == range.begin,
                 deformation,
                 response);
-        add_force<dim>(n, volume, response.stress, gradients, system.residual);
-        for (int a = 0; a < n; ++a)
-          for (int i = 0; i < dim; ++i)
-            {
-              const double weighted = volume * gradients[a * dim + i];
-              double      *row      = moments + (a * dim + i) * n * dim;
-              for (int bj = a * dim; bj < n * dim; ++bj)
-                row[bj] += weighted * gradients[bj];
-            }
-      }
-
-    constexpr int          n_v     = Voigt<dim>::n;
-    const VoigtMatrix<dim> tangent = response.tangent;
-    for (int a = 0; a < n; ++a)
-      for (int b = a; b < n; ++b)
-        {
-          const double *M = moments + a * dim * n * dim + b * dim;
-          for (int i = 0; i < dim; ++i)
-            for (int j = 0; j < dim; ++j)
+        by_component<dim>(n, gradients, g);
+        add_force<dim>(n, volume, response.stress, g, system.residual);
+        for (int d = 0; d < dim; ++d)
+          for (int e = d; e < dim; ++e)
+            for (int a = 0; a < n; ++a)
               {
-                double sum = 0;
-                for (int r = 0; r < dim; ++r)
-                  for (int s = 0; s < dim; ++s)
-                    sum += tangent[voigt_index<dim>(i, r) * n_v +
-                                   voigt_index<dim>(j, s)] *
-                           M[r * n * dim + s];
-                system.matrix[(a * n + b) * dim * dim + i * dim + j] += sum;
-                if (a != b)
-                  system.matrix[(b * n + a) * dim * dim + j * dim + i] += sum;
+                const double weighted = volume * g[d * n + a];
+                double      *row      = moments + ((d * dim + e) * n + a) * n;
+#pragma GCC unroll 1
+                for (int b = 0; b < n; ++b)
+                  row[b] += weighted * g[e * n + b];
               }
-        }
+      }
+    for (int d = 0; d < dim; ++d)
+      for (int e = 0; e < d; ++e)
+        for (int a = 0; a < n; ++a)
+          for (int b = 0; b < n; ++b)
+            moments[((d * dim + e) * n + a) * n + b] =
+              moments[((e * dim + d) * n + b) * n + a];
+
+    double                 K[size * size * dim * dim];
+    const VoigtMatrix<dim> tangent = response.tangent;
+    std::fill(K, K + n * n * dim * dim, 0.);
+    for (int i = 0; i < dim; ++i)
+      for (int j = i; j < dim; ++j)
+        for (int d = 0; d < dim; ++d)
+          for (int e = 0; e < dim; ++e)
+            {
+              const double  c = tangent[voigt_index<dim>(i, d) * Voigt<dim>::n +
+                                       voigt_index<dim>(j, e)];
+              const double *M = moments + (d * dim + e) * n * n;
+              double       *K_ij = K + (i * dim + j) * n * n;
+              if (c != 0)
+#pragma GCC unroll 1
+                for (int ab = 0; ab < n * n; ++ab)
+                  K_ij[ab] += c * M[ab];
+            }
+    add_blocks<dim, true>(n, K, system.matrix);
   }
 
   template class InternalForce<2>;

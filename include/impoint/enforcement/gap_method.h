@@ -138,7 +138,9 @@ namespace Impoint
 
       const bool projected;
       const bool normal_only; // whether only the normal gap counts
+      const bool factor_has_unit;
 
+      std::vector<double>    sizes; // per range: h of its cell
       NodalNormals<dim>      normals;
       std::vector<char>      left_out;  // per range: superfluous
       std::vector<Proximity> proximity; // per particle, of a releasing boundary

@@ -5,7 +5,7 @@
 #include <impoint/grid/support_size.h>
 #include <impoint/terms/term.h>
 
-#include <array>
+#include <boost/container/small_vector.hpp>
 
 namespace Impoint
 {
@@ -64,8 +64,9 @@ namespace Impoint
       Tensor<1, dim>     normal, start_gap, multiplier;
       TractionLaw        law;
 
-      std::array<double, largest_support>         values = {}; // whole gap: L_a
-      std::array<Tensor<1, dim>, largest_support> rows; // normal gap: L_a
+      // L_a per node of the whole gap, and of the normal gap
+      boost::container::small_vector<double, 27>         values;
+      boost::container::small_vector<Tensor<1, dim>, 27> rows;
     };
   } // namespace Enforcement
 } // namespace Impoint

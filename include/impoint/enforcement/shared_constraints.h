@@ -22,11 +22,13 @@ namespace Impoint
     public:
       void clear();
 
-      /** Finds the groups of @p boundary and appends this rank's links.
-       * Collective. */
-      void make_links(const BoundaryParticles<dim> &boundary,
-                      const ActiveNodes<dim>       &active,
-                      Links                        &links);
+      /** Finds the groups of @p boundary, unless neither its particles nor the
+       * active cells that hold them changed since the last call. Collective. */
+      void find_groups(const BoundaryParticles<dim> &boundary,
+                       const ActiveNodes<dim>       &active);
+
+      /** Appends this rank's links: one for each group of several cells. */
+      void append_links(Links &links) const;
 
       /** Whether the cell of range @p r shares its constraint. */
       bool contains(const unsigned int r) const
@@ -68,6 +70,9 @@ namespace Impoint
         unsigned int rank = nobody, link = 0, member = 0;
       };
 
+      bool anything_changed(const BoundaryParticles<dim> &boundary,
+                            const ActiveNodes<dim>       &active);
+
       struct Link
       {
         unsigned int              middle; // range
@@ -77,6 +82,12 @@ namespace Impoint
 
       std::vector<Part> parts; // per range
       std::vector<Link> links; // of this rank
+
+      // Of the last groups: each cell and whether it was active; places,
+      // normals and areas of the particles.
+      std::vector<unsigned int> last_cells;
+      std::vector<double>       last_particles;
+      bool                      fresh = true;
     };
   } // namespace Enforcement
 } // namespace Impoint

@@ -45,6 +45,7 @@ namespace Impoint
   {
     /** Reduction of the preconditioned residual sqrt(r . M r) to reach. */
     double       tolerance      = 1e-10;
+    double       reference      = 0; // at least what reductions refer to
     unsigned int max_iterations = 500;
 
     /** Whether to stop as soon as the pace so far shows that max_iterations
@@ -57,6 +58,7 @@ namespace Impoint
     unsigned int iterations = 0;
     bool         converged  = false;
     double       reduction  = 1; // of the preconditioned residual
+    double       start      = 0; // what that was
   };
 
   /**

@@ -140,6 +140,10 @@ namespace Impoint
     {
       return masses.local_element(i);
     }
+    const Vector &nodal_masses() const
+    {
+      return masses;
+    }
 
   private:
     template <int n_static>

@@ -53,7 +53,7 @@ namespace Impoint
     bool symmetric = true;
 
     /** Whether a matrix, or one much like it, is solved with many times: in
-     * linear and dynamic scenes, and with multipliers. */
+     * linear and dynamic scenes. */
     bool serves_long = true;
 
     /** The same with moderate enforcement, if has_moderate. */
@@ -106,13 +106,18 @@ namespace Impoint
 
     /**
      * x = A^-1 b, to the tolerance on the preconditioned residual, times
-     * @p looser where b is the small rest of a larger right-hand side. Throws
-     * StepFailed if the matrix is singular or the iteration does not converge.
+     * @p looser where b is the small rest of a larger right-hand side. If @p
+     * further is not 0, x only improves the last solution for which it was: an
+     * iteration then refers its residual to that of the other, with the
+     * tolerance times @p further in place of @p looser; if nothing is left to
+     * improve, x = 0. Throws StepFailed if the matrix is singular or the
+     * iteration does not converge.
      */
     void solve(const LinearProblem<dim>  &problem,
                const std::vector<double> &b,
                std::vector<double>       &x,
-               const double               looser = 1.);
+               const double               looser  = 1.,
+               const double               further = 0.);
 
     /**
      * The two ways to solve what is not symmetric, which solve() takes one

@@ -24,8 +24,10 @@ namespace Impoint
   public:
     using Vector = typename Assembly<dim>::Vector;
 
-    /** x = A^-1 b, with the tolerance multiplied by the number. */
-    using Solve = std::function<void(const Vector &, const double, Vector &)>;
+    /** x = A^-1 b that improves the last solution; the numbers are looser and
+     * further of LinearSolver. */
+    using Solve =
+      std::function<void(const Vector &, const double, const double, Vector &)>;
 
     MethodOfMultipliers(Assembly<dim>             &assembly,
                         Enforcement::Methods<dim> &methods,
@@ -73,6 +75,7 @@ namespace Impoint
                              const Multipliers            &step,
                              const Vector                 &forces,
                              const double                  looser,
+                             const double                  further,
                              const std::vector<Direction> &directions);
 
     Multipliers get() const;

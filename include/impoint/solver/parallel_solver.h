@@ -35,7 +35,8 @@ namespace Impoint
     void solve(const LinearProblem<dim> &local,
                const Vector             &b,
                Vector                   &x,
-               const double              looser = 1.);
+               const double              looser  = 1.,
+               const double              further = 0.);
 
     /** Throws RunFailed if a part of the bodies can move as a rigid body at no
      * cost: statics has no answer to that. */

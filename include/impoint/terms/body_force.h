@@ -20,14 +20,16 @@ namespace Impoint
   };
 
   /** Forces of the bodies' loads per mass at a time on the active nodes: rho b
-   * N_I of P Eq. 15. They do not depend on the step's displacements.
-   * Collective. */
+   * N_I of P Eq. 15. They do not depend on the step's displacements. @p masses:
+   * of the nodes, if they are known: then a load that is the same everywhere
+   * needs no look at the points. Collective. */
   template <int dim>
-  LinearAlgebra::distributed::Vector<double>
-  body_force(const MaterialPoints<dim>        &points,
-             const ActiveNodes<dim>           &active,
-             const std::vector<BodyLoad<dim>> &body_loads, // per body
-             const double                      at);
+  LinearAlgebra::distributed::Vector<double> body_force(
+    const MaterialPoints<dim>                        &points,
+    const ActiveNodes<dim>                           &active,
+    const std::vector<BodyLoad<dim>>                 &body_loads, // per body
+    const double                                      at,
+    const LinearAlgebra::distributed::Vector<double> *masses = nullptr);
 } // namespace Impoint
 
 #endif

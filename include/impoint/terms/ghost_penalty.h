@@ -93,18 +93,22 @@ namespace Impoint
       std::vector<double> matrix; // n x n, the same for all components
     };
 
-    Content              content(const unsigned int k) const;
-    std::vector<Content> contents_with_ghosts() const;
-    void                 share(std::vector<Content> &contents) const;
-    bool                 is_link(const unsigned int          c,
-                                 const unsigned int          f,
-                                 const std::vector<Content> &contents) const;
-    void                 integrate(const unsigned int l);
+    Content content(const unsigned int k) const;
+    bool    contents_stay();
+    void    find_contents();
+    void    set_content(const unsigned int c, const Content &value);
+    void    share_contents();
+    bool    is_link(const unsigned int c, const unsigned int f) const;
+    void    find_faces();
+    void    integrate(const unsigned int l);
 
     const ActiveNodes<dim>    &active;
     const MaterialPoints<dim> &points;
     const double               factor, thickness;
     std::vector<Face>          faces;
+    std::vector<Content>       contents;       // of the grid's cells
+    std::vector<unsigned int>  known;          // cells whose content is set
+    std::vector<unsigned int>  last_cells;     // that were active
     std::vector<char>          is_held;        // per active cell
     unsigned int               first_link = 0; // among all links
   };
