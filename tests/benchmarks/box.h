@@ -109,7 +109,7 @@ struct Box
             points->data(p)[points->slots().x + d] = places[p][d];
           }
       }
-    points->find(places);
+    points->find(places, "point");
     points->move();
   }
 

@@ -116,7 +116,7 @@ public:
     u.update_ghost_values();
     newton.solve(u);
     new_places(*points, active, u, places);
-    points->find(places);
+    points->find(places, "point");
     update_points<dim>(active, u, nullptr, EndStates<dim>(), *points);
     moved = points->move();
   }
