@@ -80,9 +80,15 @@ namespace Impoint
       superfluous,
       "Multipliers of more cells than displacements can follow oscillate: keep "
       "all; share one among neighbours until it has 0.4 h^(dim-1) of the "
-      "boundary (simplices: 0.8); or remove superfluous ones (L Section "
-      "3.2.2). automatic: share by 'lagrange multiplier', else keep.",
-      Patterns::Selection("automatic|keep|remove|share"));
+      "boundary (simplices: 1); remove superfluous ones (L Section 3.2.2); or "
+      "stabilise all by a penalty on their jumps, which leaves gaps of "
+      "O(h^2). automatic: share by 'lagrange multiplier', else keep.",
+      Patterns::Selection("automatic|keep|remove|share|stabilise"));
+    prm.add_parameter("Jump penalty",
+                      jump_penalty,
+                      "Of stabilised multipliers: compliance of the jump "
+                      "between neighbouring cells, in units of h^dim / E.",
+                      Patterns::Double(1e-6, 1e3));
     prm.add_parameter("Band width",
                       band_width,
                       "Width delta of the band of an implicit boundary, in "
@@ -229,6 +235,7 @@ namespace Impoint
             "Penalty factor",
             "Penalty unit",
             "Superfluous constraints",
+            "Jump penalty",
             "Band width",
             "Nitsche factor",
             "Nitsche form",
@@ -241,6 +248,9 @@ namespace Impoint
     refuse(enforcement == "implicit boundary" || enforcement == "nitsche",
            {"Releasing", "Friction coefficient"},
            "'Enforcement' is '" + enforcement + "', which always holds");
+    refuse(superfluous != "stabilise",
+           {"Jump penalty"},
+           "'Superfluous constraints' is not 'stabilise'");
     refuse(constraint != "slip" || conforming, {"Normals"}, kind);
     refuse(conforming, {"Moves", "Rotation angle"}, kind);
     refuse(!turns,

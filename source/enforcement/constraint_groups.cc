@@ -42,7 +42,7 @@ namespace Impoint
               sums.back().normal[d] = cell.area * cell.normal[d];
             }
         }
-      join_neighbors(simplicial ? 0.8 : 0.4);
+      join_neighbors(simplicial ? 1. : 0.4);
       for (auto &sum : sums)
         if (!sum.cells.empty())
           {

@@ -92,6 +92,12 @@ namespace Impoint
 
 
     template <int dim>
+    void Method<dim>::add_exchange(const unsigned int, CellSystem &) const
+    {}
+
+
+
+    template <int dim>
     std::vector<double> Method<dim>::multipliers() const
     {
       return {};

@@ -127,6 +127,7 @@ namespace Impoint
       sizes.clear();
       for (const auto &range : this->boundary->ranges())
         sizes.push_back(step.active->basis().grid().size(range.cell));
+      jumps.clear();
       if (!this->active_now)
         return;
       frozen = false;
@@ -154,6 +155,14 @@ namespace Impoint
       left_out.clear();
       if (removes_superfluous())
         left_out = superfluous_constraints(*this->boundary, *step.active);
+      if (stabilises())
+        {
+          jumps.reinit(*this->boundary,
+                       *step.active,
+                       this->condition.jump_penalty,
+                       step.young);
+          tell_multipliers();
+        }
       make_link_patches();
     }
 
@@ -261,6 +270,8 @@ namespace Impoint
           (k < n ? multiplier[k] : link_patches[k - n].multiplier)[i % dim] =
             values[i];
         }
+      if (jumps.acts())
+        tell_multipliers();
     }
 
 

@@ -150,7 +150,12 @@ namespace Impoint
       else
         patch.normal /= patch.normal.norm();
 
-      patch.law           = law(r, patch.area);
+      patch.law = law(r, patch.area);
+      if (jumps.acts())
+        {
+          patch.start_gap += jumps.shift(r);
+          patch.law.compliance += jumps.compliance(r);
+        }
       patch.law.releasing = this->condition.releasing;
       patch.law.friction  = friction();
       return patch;

@@ -74,6 +74,27 @@ namespace Impoint
     this->insert(particles);
   }
 
+
+
+  template <int dim>
+  HalfSpace<dim>
+  BoundaryParticles<dim>::material_side(const unsigned int r) const
+  {
+    const auto    &range = this->ranges()[r];
+    double         sum   = 0;
+    Tensor<1, dim> centre;
+    HalfSpace<dim> side;
+    for (unsigned int b = range.begin; b < range.end; ++b)
+      {
+        sum += area(b);
+        centre += area(b) * Tensor<1, dim>(this->position(b));
+        side.normal += area(b) * vector(b, slot.normal);
+      }
+    side.point = Point<dim>(centre / sum);
+    side.normal /= sum;
+    return side;
+  }
+
   template class BoundaryParticles<2>;
   template class BoundaryParticles<3>;
 } // namespace Impoint

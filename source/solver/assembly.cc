@@ -67,16 +67,22 @@ namespace Impoint
 
 
   /** In dynamics the mass holds what few points cannot see. Next to none of it
-   * is not enough where contact opens and closes. */
+   * is not enough where contact opens and closes. A boundary that carries the
+   * material's traction wants the stiffness of a whole cell below it. */
   template <int dim>
   void Assembly<dim>::begin_step()
   {
     in_contact.assign(active.n_cells(), false);
+    empty_cells.fill();
     for (const auto &method : methods)
-      if (method->is_active() && !method->is_linear())
+      if (method->is_active())
         Enforcement::for_active_ranges(
-          *method, active, [&](const unsigned int, const unsigned int k) {
-            in_contact[k] = true;
+          *method, active, [&](const unsigned int r, const unsigned int k) {
+            if (!method->is_linear())
+              in_contact[k] = true;
+            else if (k >= active.n_material_cells() && method->constrains() &&
+                     !method->parameters().carries_material())
+              empty_cells.bound(k, method->particles().material_side(r));
           });
   }
 
@@ -363,36 +369,6 @@ namespace Impoint
     rest -= external;
     residual = rest;
     return scale;
-  }
-
-
-
-  template <int dim>
-  void Assembly<dim>::update_multipliers(const Vector &u, Vector &change)
-  {
-    rest.reinit(active.unknowns());
-    CellSystem system;
-    const auto update = [&](const unsigned int k, const auto &add_change) {
-      gather(k, u, cell_u);
-      begin_cell(k, false, system);
-      add_change();
-      scatter_residual(k);
-    };
-    for (const auto &method : methods)
-      if (method->is_active() && method->augmented())
-        {
-          Enforcement::for_active_ranges(
-            *method, active, [&](const unsigned int r, const unsigned int k) {
-              update(k, [&]() { method->update_multipliers(r, system); });
-            });
-          Enforcement::for_links(
-            *method, active, [&](const unsigned int l, const unsigned int k) {
-              update(k, [&]() { method->update_link_multipliers(l, system); });
-            });
-        }
-    rest.compress(VectorOperation::add);
-    rest.zero_out_ghost_values();
-    change = rest;
   }
 
   template class Assembly<2>;

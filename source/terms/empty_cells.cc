@@ -1,7 +1,9 @@
+#include <impoint/particles/clipping.h>
 #include <impoint/terms/empty_cells.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace Impoint
@@ -23,6 +25,34 @@ namespace Impoint
     points.clear();
     for (unsigned int k = active.n_material_cells(); k < active.n_cells(); ++k)
       points.push_back(integrate(active.cell(k)));
+    fill();
+  }
+
+
+
+  template <int dim>
+  void EmptyCells<dim>::fill()
+  {
+    parts.assign(points.size(), 1.);
+  }
+
+
+
+  template <int dim>
+  void EmptyCells<dim>::bound(const unsigned int    k,
+                              const HalfSpace<dim> &half_space)
+  {
+    constexpr double smallest = 0.1, shortest_normal = 0.9;
+    if (half_space.normal.norm() < shortest_normal)
+      return;
+    double             &part   = parts[k - active.n_material_cells()];
+    ConvexPolytope<dim> inside = ConvexPolytope<dim>::from_cell(
+      active.basis().grid().vertices(active.cell(k)));
+    const double whole = inside.volume();
+    inside.clip(half_space);
+    part = std::min(part,
+                    std::max(smallest,
+                             inside.empty() ? 0. : inside.volume() / whole));
   }
 
 
@@ -57,10 +87,12 @@ namespace Impoint
 
 
 
-  /** Residual V F S g_a with S = E (F^T F - 1) / 2; block (a, b) of its
+  /** Residual V F S g_a with S = E (F^T F - 1) / 2, E being @p modulus;
+   * block (a, b) of its
    * derivative V (g_a . S g_b 1 + E/2 (g_a . g_b F F^T + F g_b x F g_a)). */
   template <int dim>
   void EmptyCells<dim>::add_point(const Gradients &gradients,
+                                  const double     modulus,
                                   CellSystem      &system) const
   {
     const unsigned int n = system.n;
@@ -77,8 +109,9 @@ namespace Impoint
         strain += 0.5 * transpose(F) * F;
         F += one;
       }
-    const Tensor<2, dim> S = gradients.volume * young * strain,
-                         B = 0.5 * gradients.volume * young * F * transpose(F);
+    const Tensor<2, dim> S = gradients.volume * modulus * strain,
+                         B =
+                           0.5 * gradients.volume * modulus * F * transpose(F);
     std::vector<Tensor<1, dim>> pushed(n);
     for (unsigned int a = 0; a < n; ++a)
       {
@@ -90,7 +123,7 @@ namespace Impoint
       }
     if (system.matrix == nullptr)
       return;
-    const double factor = 0.5 * gradients.volume * young;
+    const double factor = 0.5 * gradients.volume * modulus;
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int b = 0; b < n; ++b)
         {
@@ -114,8 +147,9 @@ namespace Impoint
   template <int dim>
   void EmptyCells<dim>::add(const unsigned int k, CellSystem &system) const
   {
-    for (const Gradients &point : points[k - active.n_material_cells()])
-      add_point(point, system);
+    const unsigned int i = k - active.n_material_cells();
+    for (const Gradients &point : points[i])
+      add_point(point, parts[i] * young, system);
   }
 
 

@@ -50,7 +50,8 @@ namespace Impoint
     std::string enforcement    = "projected penalty";
     double      factor         = 1e4;
     std::string factor_unit    = "E/h";       // E/h|Pa/m
-    std::string superfluous    = "automatic"; // automatic|keep|remove|share
+    std::string superfluous    = "automatic"; // keep|remove|share|stabilise
+    double      jump_penalty   = 0.3;         // [h^dim/E]
     double      band_width     = 1e-6;        // [h]
     double      nitsche_factor = 0;           // [n.C.n/h]; 0: by degree
     std::string nitsche_form   = "symmetric"; // symmetric|non-symmetric

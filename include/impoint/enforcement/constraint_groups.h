@@ -17,9 +17,11 @@ namespace Impoint
      * trace has degrees of freedom: as cells that a boundary cuts at random
      * have not. So the group with the least area joins the nearest of those
      * next to it until all have 0.4 h^(dim-1), in simplices, of which a
-     * boundary cuts about twice as many, 0.8. The groups of a flat boundary can
-     * carry any even traction, so that patch tests hold, other than without
-     * what is superfluous (L Section 3.2.2).
+     * boundary cuts about twice as many, 1. (With 0.8, where a boundary follows
+     * a line of vertices, groups as long as the edges between them were free to
+     * alternate.) The groups of a flat boundary can carry any even traction, so
+     * that patch tests hold, other than without what is superfluous (L Section
+     * 3.2.2).
      *
      * No group reaches farther than the cells around one of its own, so that a
      * rank knows them all; none goes around a corner; and no connected piece of

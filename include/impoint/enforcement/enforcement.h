@@ -131,6 +131,14 @@ namespace Impoint
       virtual void update_link_multipliers(const unsigned int l,
                                            CellSystem        &system);
 
+      /** After all updates: tells neighbours the new multipliers. Whether that
+       * changes the residual by add_exchange(). Collective. */
+      virtual bool exchange_multipliers()
+      {
+        return false;
+      }
+      virtual void add_exchange(const unsigned int r, CellSystem &system) const;
+
       /** The multipliers of the iterate as numbers in an order of the method's
        * own; none without them. */
       virtual std::vector<double> multipliers() const;

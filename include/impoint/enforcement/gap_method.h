@@ -2,6 +2,7 @@
 #define impoint_enforcement_gap_method_h
 
 #include <impoint/enforcement/gap_patch.h>
+#include <impoint/enforcement/jump_penalty.h>
 #include <impoint/enforcement/nodal_normals.h>
 #include <impoint/enforcement/proximity.h>
 #include <impoint/enforcement/shared_constraints.h>
@@ -38,6 +39,9 @@ namespace Impoint
       bool                augmented() const override;
       void                update_multipliers(const unsigned int r,
                                              CellSystem        &system) override;
+      bool                exchange_multipliers() override;
+      void                add_exchange(const unsigned int r,
+                                       CellSystem        &system) const override;
       std::vector<double> multipliers() const override;
       void set_multipliers(const std::vector<double> &values) override;
       void add_link(const unsigned int l,
@@ -90,6 +94,8 @@ namespace Impoint
       bool   takes_part(const unsigned int r) const;
       double friction() const;
       bool   removes_superfluous() const;
+      bool   stabilises() const;
+      void   tell_multipliers();
       void   make_link_patches();
 
       template <typename Function>
@@ -153,6 +159,7 @@ namespace Impoint
       std::vector<typename Patch::Contact>         first_contacts;
       bool                                         frozen = false;
 
+      JumpPenalty<dim>       jumps;
       SharedConstraints<dim> shared;
       std::vector<Patch>     link_patches; // with the multiplier now
       // per range, of the step

@@ -90,6 +90,10 @@ namespace Impoint
       return this->data(b)[slot.area];
     }
 
+    /** Of the plane through the particles of range @p r, with their mean
+     * normal: shorter than 1 where they face different ways. */
+    HalfSpace<dim> material_side(const unsigned int r) const;
+
     /** Of the bodies in 2D [m]; 1 in 3D. */
     double thickness() const
     {

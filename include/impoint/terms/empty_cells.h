@@ -32,6 +32,15 @@ namespace Impoint
     /** After the set of active cells changed. */
     void reinit();
 
+    /** All cells resist as whole ones. */
+    void fill();
+
+    /** Only the part of active cell @p k within @p half_space can be material
+     * whose points happen to lie beyond: as much stiffness, but at least a
+     * tenth of the cell's. A whole cell would make the support too stiff.
+     * Nothing changes at a corner, where the normal is short. */
+    void bound(const unsigned int k, const HalfSpace<dim> &half_space);
+
     /** @p k: an active cell beyond the material cells. */
     void add(const unsigned int k, CellSystem &system) const;
 
@@ -51,12 +60,15 @@ namespace Impoint
 
     std::vector<Gradients> integrate(const unsigned int c) const;
 
-    void add_point(const Gradients &gradients, CellSystem &system) const;
+    void add_point(const Gradients &gradients,
+                   const double     modulus,
+                   CellSystem      &system) const;
 
     const ActiveNodes<dim>             &active;
     double                              young;
     bool                                linear;
     std::vector<std::vector<Gradients>> points; // per empty cell
+    std::vector<double>                 parts;  // of its stiffness
   };
 } // namespace Impoint
 
