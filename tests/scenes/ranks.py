@@ -58,6 +58,14 @@ for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary
             SCENES[title][1].append("Boundaries/clamp/Band width = 1e-6")
         SCENES[f"{method}, hexes"][1].append("Boundaries/wall/Band width = 1e-6")
 
+stabilised = [f"Boundaries/{entry}" for entry in
+              ("clamp/Enforcement = lagrange multiplier",
+               "clamp/Superfluous constraints = stabilise")]
+SCENES["stabilised"] = ("quickstart.prm",
+                        [*COARSE, "Grid/Cells = triangles", *stabilised])
+SCENES["stabilised, tets"] = (HERE / "ranks_bar_3d.prm",
+                              ["Grid/Cells = tetrahedra", *stabilised])
+
 # At 1e8 E/h a force is the round-off of displacements times that: it differs by up
 # to 8e-9 when the matrix is gathered and factorised, too. Displacements do not.
 STIFF, STIFF_TOLERANCE = set(), 1e-8

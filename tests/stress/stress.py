@@ -8,17 +8,15 @@ test in ctest, 'long' has 1000 cuts for each basis and enforcement and 1e5 steps
 of free flight; NAMEs choose tests.
 """
 
-import json
 import math
-import os
 import random
 import statistics
-import subprocess
 import sys
 from pathlib import Path
 
-SOURCE = Path(os.environ["IMPOINT_SOURCE"])
-CANTILEVER = SOURCE / "tests" / "scenes" / "cut_sweep.prm"
+from many_runs import Runs
+
+CANTILEVER = Path(__file__).with_name("cut_sweep.prm")
 FLIGHT = Path(__file__).with_name("free_flight.prm")
 LONG = sys.argv[1:2] == ["long"]
 CHOSEN = sys.argv[2:]
@@ -34,31 +32,6 @@ GHOST = "Grid/Ghost penalty = 1e-3"
 OUTLINE = ["Bodies/beam/Points = clipped", "Bodies/beam/Piece = gauss",
            "Bodies/beam/Mesh/Generator =",
            "Bodies/beam/Outline = 0 0; 8 0; 8 1; 0 1"]
-
-
-class Runs:
-    """Runs in one process of many_runs: status, message and summary of each."""
-
-    def __init__(self):
-        self.process = None
-
-    def __call__(self, scene, settings):
-        if self.process is None or self.process.poll() is not None:
-            self.process = subprocess.Popen(
-                [os.environ["IMPOINT_MANY_RUNS"], str(Path("results").resolve())],
-                stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                stderr=subprocess.DEVNULL, text=True)
-        self.process.stdin.write("\t".join([str(scene), *settings]) + "\n")
-        self.process.stdin.flush()
-        while True:
-            answer = self.process.stdout.readline()
-            if not answer:
-                return "crash", f"exit {self.process.wait()}", None
-            if answer[:1] in "012" and answer[1:2] in (" ", "\n"):
-                break
-        if answer[0] == "0":
-            return "done", "", json.loads(Path("results/summary.json").read_text())
-        return "message", answer[2:].strip(), None
 
 
 run = Runs()
