@@ -237,7 +237,7 @@ namespace Impoint
   template <int dim>
   void Scene<dim>::check_support(const ParameterFile &file) const
   {
-    bool held = time.is_dynamic();
+    bool held = time.moves_after(0);
     for (const auto &condition : conditions)
       held |= condition.constraint != "traction";
     if (!held)

@@ -169,7 +169,8 @@ namespace Impoint
     while (time < end - 1e-9 * given)
       {
         // Steps end on multiples of the given size, without a tiny last one.
-        const double left = end - time;
+        const bool   rests = scene.time.rests_after(time);
+        const double left  = (rests ? scene.time.dynamic_from : end) - time;
         const double now =
           left < step_size.size * (1. + 1e-9) ? left : step_size.size;
         try
@@ -256,7 +257,7 @@ namespace Impoint
     step.points = points.get();
     for (const auto &method : methods)
       method->begin_step(step);
-    const bool dynamic = scene.time.is_dynamic();
+    const bool dynamic = scene.time.moves_after(time);
     if (dynamic)
       {
         ScopedSeconds timer(seconds.project);
@@ -280,7 +281,7 @@ namespace Impoint
   void Simulation<dim>::advance(const double dt)
   {
     activate(time, time + dt);
-    if (scene.time.is_dynamic() && time == 0 &&
+    if (scene.time.moves_after(time) && !has_moved() &&
         scene.time.initial == "equilibrium")
       {
         // loads and walls as they are at the start
@@ -336,7 +337,7 @@ namespace Impoint
           particles.find(boundary_places[m],
                          "in boundary '" + particles.name() + "' particle");
       }
-    if (scene.time.is_dynamic() && !scene.grid.is_kept())
+    if (scene.time.moves_after(time) && !scene.grid.is_kept())
       Enforcement::check_crossing(
         methods, active, *points, places, boundary_places);
   }
@@ -346,8 +347,9 @@ namespace Impoint
   template <int dim>
   void Simulation<dim>::commit(const double dt)
   {
-    is_whole  = false;
-    last_step = dt;
+    const bool moves = scene.time.moves_after(time);
+    is_whole         = false;
+    last_step        = dt;
     time += dt;
     ++counters.steps;
     {
@@ -364,12 +366,8 @@ namespace Impoint
       }
     {
       ScopedSeconds timer(seconds.update);
-      update_points(active,
-                    u,
-                    scene.time.is_dynamic() ? &inertia : nullptr,
-                    end_states,
-                    *points);
-      if (scene.time.is_dynamic() && scene.grid.is_kept())
+      update_points(active, u, moves ? &inertia : nullptr, end_states, *points);
+      if (moves && scene.grid.is_kept())
         inertia.end_step(u);
     }
     {

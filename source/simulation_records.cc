@@ -168,6 +168,15 @@ namespace Impoint
 
 
 
+  /** Whether the last step had inertia: not before the first one that has. */
+  template <int dim>
+  bool Simulation<dim>::has_moved() const
+  {
+    return counters.steps > 0 && scene.time.moves_after(time - last_step);
+  }
+
+
+
   template <int dim>
   void Simulation<dim>::write_checkpoint()
   {
@@ -182,7 +191,7 @@ namespace Impoint
         particles.tag(method->particles().name());
         store_particles(method->particles(), grid, particles);
       }
-    if (scene.grid.is_kept() && scene.time.is_dynamic() && counters.steps > 0)
+    if (scene.grid.is_kept() && has_moved())
       for (Vector *vector : inertia.carried())
         store_nodes(active, *vector, particles);
     std::string run = of_run.bytes(), rest = particles.bytes();
@@ -222,8 +231,7 @@ namespace Impoint
           archive.tag(method->particles().name());
         restore_particles(particles, cells, comm, method->particles());
       }
-    // A run that failed in its first step has stored none.
-    if (scene.grid.is_kept() && scene.time.is_dynamic() && counters.steps > 0)
+    if (scene.grid.is_kept() && has_moved())
       {
         activate(time, time + step_size.size);
         inertia.project(active, *points, step_size.size);

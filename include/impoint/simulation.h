@@ -66,6 +66,7 @@ namespace Impoint
     void        record();
     void        picture();
     void        fill_record();
+    bool        has_moved() const;
     bool        checkpoint_is_due(bool &stop) const;
     void        write_checkpoint();
     void        save_or_load(StateArchive &archive);

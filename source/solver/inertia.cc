@@ -27,6 +27,13 @@ namespace Impoint
                       "fails.",
                       Patterns::Double(1e-300));
     prm.add_parameter(
+      "Dynamic from",
+      dynamic_from,
+      "Time [s] at which the motion of a dynamic scene starts, from the state "
+      "that load steps without inertia have brought about until then, e.g. "
+      "stresses by weight.",
+      Patterns::Double(0));
+    prm.add_parameter(
       "Smallest step",
       smallest,
       "Part of 'Step' below which steps are not halved: the run "
@@ -91,8 +98,16 @@ namespace Impoint
                          " s is longer than the run of " +
                          file.value("Time/End time") + " s",
                        "Set Step to at most 'End time'.");
+    if (dynamic_from >= end)
+      throw file.error("Time/Dynamic from",
+                       "the motion starts at " +
+                         file.value("Time/Dynamic from") +
+                         " s and the run ends at " +
+                         file.value("Time/End time") + " s",
+                       "Set an earlier time, or Kind = quasi-static.");
     if (!is_dynamic())
-      for (const std::string entry : {"Newmark beta",
+      for (const std::string entry : {"Dynamic from",
+                                      "Newmark beta",
                                       "Newmark gamma",
                                       "Spectral radius",
                                       "Velocity filter",

@@ -55,6 +55,25 @@ def check_damping():
         expect(error < 0.02, f"damping with spectral radius {radius}")
 
 
+def check_start():
+    """Load steps for a second, then motion: at rest under the same load; the
+    opposite of the static path half a period after the load was taken away."""
+    load, static = 1e-5, 1e-5 * 25**2 / (3 * 100)
+    for left, end, expected in ((load, 3, static), (0, 6, -static)):
+        results = run_scene(
+            "beyond/vibrating-bar.prm", "started",
+            ["Output/Pictures every = 0", "Time/Dynamic from = 1", "Time/Step = 0.05",
+             f"Time/End time = {end}", "Bodies/bar/Initial velocity =",
+             f"Bodies/bar/Body force = if(t < 1.01, {load}*min(1, t), {left}); 0"])["results"]
+        path = results["centre path"]["value"]
+        kinetic = results["energy kinetic"]["value"] / results["energy total"]["value"]
+        print(f"from rest, load {left}: path {path / expected - 1:.1e}, "
+              f"kinetic part of the energy {kinetic:.1e}")
+        # (h / 2 L)^2 = 1e-4 is the grid's
+        expect(abs(path / expected - 1) < (2e-3 if left == 0 else 2e-4), "path from rest")
+        expect(left == 0 or kinetic < 1e-9, "at rest under the load of the start")
+
+
 def main():
     results = run_scene("beyond/vibrating-bar.prm", "run",
                         ["Output/Pictures every = 0"])["results"]
@@ -68,6 +87,7 @@ def main():
     expect(abs(phase - newmark) < 0.02, "phase")
     expect(-3e-3 < energy < 1e-6, "energy")
     check_damping()
+    check_start()
 
 
 main()

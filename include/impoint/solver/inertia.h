@@ -24,6 +24,7 @@ namespace Impoint
     double      smallest        = 1e-3; // of the given step
     double      beta            = 0.25;
     double      gamma           = 0.5;
+    double      dynamic_from    = 0; // [s]; load steps until then
     double      spectral_radius = 1; // of the highest frequencies, a step
     double      filter          = 0; // of unseen velocities [s]; 0: none
     double      filter_at_rest  = 0; // instead, near rest [s]; 0: the same
@@ -33,6 +34,16 @@ namespace Impoint
     bool        is_dynamic() const
     {
       return kind == "dynamic";
+    }
+    /** Whether a step that begins at @p start is a load step before motion. */
+    bool rests_after(const double start) const
+    {
+      return is_dynamic() && start < dynamic_from - 1e-9 * step;
+    }
+    /** Whether it has inertia. */
+    bool moves_after(const double start) const
+    {
+      return is_dynamic() && !rests_after(start);
     }
   };
 
