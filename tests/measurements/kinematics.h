@@ -137,7 +137,7 @@ private:
         if (dim == 2)
           points->data(p)[slots.stress + Voigt<dim>::n] = stress_zz;
       }
-    points->find(places);
+    points->find(places, "material point");
     for (unsigned int p = 0; p < points->n(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         points->data(p)[slots.x + d] = places[p][d];
