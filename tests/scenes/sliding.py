@@ -8,7 +8,8 @@ THREE_D = "multiplier/4.4-sliding-cylinder-3d"
 # Constant acceleration is exact in any steps, so these are coarse.
 COARSE_2D = ["Time/Step = 0.05"]
 COARSE_3D = ["Grid/Arguments = 18, 25, 6 : -0.24, -4.32, -0.72 : 4.08, 1.68, 0.72",
-             "Bodies/cylinder/Mesh/Refinements = 1", "Time/Step = 0.1"]
+             "Bodies/cylinder/Mesh/Refinements = 1",
+             "Bodies/cylinder/Points per direction = 3", "Time/Step = 0.1"]
 PARTICLES = ["Boundaries/plane/Enforcement = penalty"]
 
 RUNS = {
