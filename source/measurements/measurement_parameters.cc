@@ -229,6 +229,11 @@ namespace Impoint
     };
     if (!body.empty())
       require("Body", body, file.names("Bodies/Names"));
+    if (quantity == "probe" && name == "centre")
+      throw file.error("Measurements/Names",
+                       "the probe 'centre' has the name of the centre of mass",
+                       "Give it another one: history.csv has columns 'centre "
+                       "x' already.");
     if (!is_one_of("Boundary", used_entries.at(quantity)))
       return;
     if (boundary.empty())

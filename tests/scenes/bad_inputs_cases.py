@@ -85,6 +85,8 @@ SCENES = [
     ("set Point = 2, 0.5", "set Point = 2", "'2' is no place.*2 numbers"),
     # what clashes, and what is missing
     (*NO_CLAMP, "no section|nothing holds the bodies", ""),
+    ("set Names = tip\n  subsection tip",
+     "set Names = centre\n  subsection centre", "has the name of the centre of mass"),
     (QUANTITY, "set Boundary = clamp\n    set Quantity = probe",
      "'Boundary' means nothing to the quantity 'probe'"),
     ("set Quantity = probe\n    set Point = 2, 0.5",
