@@ -143,6 +143,9 @@ namespace Impoint
         folder.write("parameters.prm", parameters.str());
       }
     activate(time, time + step_size.size);
+    // A run that had come to its end counts no pattern of a step that follows.
+    if (resumed && time >= scene.time.end - 1e-9 * scene.time.step)
+      counters.patterns = patterns_before;
     ScopedSeconds timer(seconds.output);
     fill_record();
     terminal.header(run_record);

@@ -222,6 +222,7 @@ namespace Impoint
       }
     earlier_seconds          = seconds.total;
     linear_iterations_before = counters.linear_iterations;
+    patterns_before          = counters.patterns;
 
     const OwnCells cells = own_cells(grid);
     restore_particles(particles, cells, comm, *points);

@@ -107,6 +107,7 @@ namespace Impoint
     bool is_whole = true; // state of one time, not in the middle of an update
     const bool        resumed, constant_load;
     std::size_t       linear_iterations_before = 0; // the last step
+    std::size_t       patterns_before          = 0; // the resumed run
     std::vector<bool> told_of_lost_load;            // per method
     std::chrono::steady_clock::time_point         last_checkpoint;
     double                                        earlier_seconds = 0;

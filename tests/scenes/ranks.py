@@ -69,8 +69,9 @@ SCENES["stabilised, tets"] = (HERE / "ranks_bar_3d.prm",
                               ["Grid/Cells = tetrahedra", *stabilised])
 
 # At 1e8 E/h a force is the round-off of displacements times that: it differs by up
-# to 8e-9 when the matrix is gathered and factorised, too. Displacements do not.
-STIFF, STIFF_TOLERANCE = set(), 1e-8
+# to 8e-9 when the matrix is gathered and factorised, by 3e-8 when it is iterated
+# with, where one rank's force that should be 0 is 5e-9. Displacements do not.
+STIFF, STIFF_TOLERANCE = set(), 4e-8
 for method in ("projected penalty", "lagrange multiplier"):
     # Conjugate gradients on rows spread over the ranks, V-cycles of both kinds.
     iterative = [f"Boundaries/clamp/Enforcement = {method}",
