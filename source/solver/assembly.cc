@@ -23,28 +23,10 @@ namespace Impoint
 
 
 
-  namespace
-  {
-    /** Initial volume of a material point [m^dim]; collective. */
-    template <int dim>
-    double mean_volume(const MaterialPoints<dim> &points, const MPI_Comm comm)
-    {
-      double sum = 0;
-      for (unsigned int p = 0; p < points.n(); ++p)
-        sum += points.data(p)[points.slots().volume];
-      return Utilities::MPI::sum(sum, comm) / points.carried().thickness /
-             std::max(1u, Utilities::MPI::sum(points.n(), comm));
-    }
-  } // namespace
-
-
-
   template <int dim>
   void Assembly<dim>::new_active_set()
   {
-    if (point_volume == 0)
-      point_volume = mean_volume(points, active.basis().grid().communicator());
-    empty_cells.reinit(point_volume);
+    empty_cells.reinit();
     if (ghost_penalty)
       ghost_penalty->new_active_set();
   }
@@ -98,8 +80,8 @@ namespace Impoint
           *method, active, [&](const unsigned int r, const unsigned int k) {
             if (!method->is_linear())
               in_contact[k] = true;
-            if (k >= active.n_material_cells() && method->constrains() &&
-                !method->parameters().carries_material())
+            else if (k >= active.n_material_cells() && method->constrains() &&
+                     !method->parameters().carries_material())
               empty_cells.bound(k, method->particles().material_side(r));
           });
   }

@@ -20,54 +20,12 @@ namespace Impoint
 
 
   template <int dim>
-  void EmptyCells<dim>::reinit(const double mean_point_volume)
+  void EmptyCells<dim>::reinit()
   {
-    point_volume = mean_point_volume;
     points.clear();
     for (unsigned int k = active.n_material_cells(); k < active.n_cells(); ++k)
       points.push_back(integrate(active.cell(k)));
-    find_nodes_of_material();
     fill();
-  }
-
-
-
-  template <int dim>
-  void EmptyCells<dim>::find_nodes_of_material()
-  {
-    LinearAlgebra::distributed::Vector<double> count(active.scalars());
-    for (unsigned int k = 0; k < active.n_material_cells(); ++k)
-      for (const unsigned int i : active.nodes(k))
-        count.local_element(i) = 1;
-    count.compress(VectorOperation::add);
-    count.update_ghost_values();
-    of_material.resize(active.n_nodes());
-    for (unsigned int i = 0; i < active.n_nodes(); ++i)
-      of_material[i] = count.local_element(i) > 0;
-  }
-
-
-
-  /** Whether all nodes of active cell @p k on the inner side of a boundary are
-   * the material's. */
-  template <int dim>
-  bool EmptyCells<dim>::is_below_material(const unsigned int    k,
-                                          const HalfSpace<dim> &boundary) const
-  {
-    const auto &basis = active.basis();
-    const auto  depth = [&](const unsigned int i) {
-      return (boundary.point - basis.point(active.grid_node(i))) *
-             boundary.normal;
-    };
-    double deepest = 0;
-    for (const unsigned int i : active.nodes(k))
-      deepest = std::max(deepest, depth(i));
-    // On the boundary itself nodes belong to neither side.
-    constexpr double on_it = 1e-3;
-    bool             below = deepest > 0;
-    for (const unsigned int i : active.nodes(k))
-      below &= of_material[i] || depth(i) <= on_it * deepest;
-    return below;
   }
 
 
@@ -84,29 +42,17 @@ namespace Impoint
   void EmptyCells<dim>::bound(const unsigned int    k,
                               const HalfSpace<dim> &half_space)
   {
-    constexpr double smallest = 1e-3, shortest_normal = 0.9;
+    constexpr double smallest = 0.1, shortest_normal = 0.9;
     if (half_space.normal.norm() < shortest_normal)
       return;
-    // Gauss points are at most half of their mean spacing from the surface.
-    constexpr double half_spacing = 0.55;
-    const auto      &grid         = active.basis().grid();
-    const double     largest =
-      half_spacing *
-      std::pow(point_volume / grid.volume(active.cell(k)), 1. / dim);
-    double &part = parts[k - active.n_material_cells()];
-    if (!is_below_material(k, half_space))
-      part = smallest;
-    else
-      {
-        ConvexPolytope<dim> inside =
-          ConvexPolytope<dim>::from_cell(grid.vertices(active.cell(k)));
-        const double whole = inside.volume();
-        inside.clip(half_space);
-        const double within = inside.empty() ? 0. : inside.volume() / whole;
-        part =
-          std::min(part,
-                   within > largest ? smallest : std::max(smallest, within));
-      }
+    double             &part   = parts[k - active.n_material_cells()];
+    ConvexPolytope<dim> inside = ConvexPolytope<dim>::from_cell(
+      active.basis().grid().vertices(active.cell(k)));
+    const double whole = inside.volume();
+    inside.clip(half_space);
+    part = std::min(part,
+                    std::max(smallest,
+                             inside.empty() ? 0. : inside.volume() / whole));
   }
 
 

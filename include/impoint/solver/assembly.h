@@ -106,7 +106,6 @@ namespace Impoint
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;
     Methods                                &methods;
-    double                                  point_volume = 0; // mean, at first
     EmptyCells<dim>                         empty_cells;
     Hourglass<dim>                          hourglass;
     std::vector<char>                       in_contact; // per active cell

@@ -29,21 +29,16 @@ namespace Impoint
                const double            young,
                const bool              linear);
 
-    /** After the set of active cells changed. @p point_volume: mean of the
-     * material points [m^dim]. Collective. */
-    void reinit(const double point_volume);
+    /** After the set of active cells changed. */
+    void reinit();
 
     /** All cells resist as whole ones. */
     void fill();
 
     /** Only the part of active cell @p k within @p half_space can be material
-     * whose points happen to lie beyond: as much stiffness. A whole cell would
-     * make the support too stiff. There is no such material where the boundary
-     * goes on beyond the body, that is, not all nodes of the cell on that side
-     * are the material's, too, and where that part would hold a point: what is
-     * left then only keeps far nodes in their places, and is soft beside a
-     * material that yields or flows. Nothing changes at a corner, where the
-     * normal is short. */
+     * whose points happen to lie beyond: as much stiffness, but at least a
+     * tenth of the cell's. A whole cell would make the support too stiff.
+     * Nothing changes at a corner, where the normal is short. */
     void bound(const unsigned int k, const HalfSpace<dim> &half_space);
 
     /** @p k: an active cell beyond the material cells. */
@@ -65,10 +60,6 @@ namespace Impoint
 
     std::vector<Gradients> integrate(const unsigned int c) const;
 
-    void find_nodes_of_material();
-    bool is_below_material(const unsigned int    k,
-                           const HalfSpace<dim> &boundary) const;
-
     void add_point(const Gradients &gradients,
                    const double     modulus,
                    CellSystem      &system) const;
@@ -76,11 +67,8 @@ namespace Impoint
     const ActiveNodes<dim>             &active;
     double                              young;
     bool                                linear;
-    double                              point_volume = 0;
     std::vector<std::vector<Gradients>> points; // per empty cell
     std::vector<double>                 parts;  // of its stiffness
-    std::vector<char> of_material; // per active node: whether a cell with
-                                   // material has it
   };
 } // namespace Impoint
 
