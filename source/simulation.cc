@@ -144,7 +144,7 @@ namespace Impoint
       }
     activate(time, time + step_size.size);
     // A run that had come to its end counts no pattern of a step that follows.
-    if (resumed && time >= scene.time.end - 1e-9 * scene.time.step)
+    if (resumed && scene.time.is_over(time))
       counters.patterns = patterns_before;
     ScopedSeconds timer(seconds.output);
     fill_record();
@@ -169,7 +169,7 @@ namespace Impoint
   {
     const double given = scene.time.step;
     const double end   = scene.time.end;
-    while (time < end - 1e-9 * given)
+    while (!scene.time.is_over(time))
       {
         // Steps end on multiples of the given size, without a tiny last one.
         const bool   rests = scene.time.rests_after(time);
@@ -191,7 +191,7 @@ namespace Impoint
         bool stop = signals.arrived();
         if (checkpoint_is_due(stop))
           write_checkpoint();
-        if (stop && time < end - 1e-9 * given)
+        if (stop && !scene.time.is_over(time))
           throw RunFailed("The run was told to stop by a signal, after step " +
                           std::to_string(counters.steps) +
                           "; 'impoint --resume " + folder.path() + "' goes on");

@@ -35,6 +35,11 @@ namespace Impoint
     {
       return kind == "dynamic";
     }
+    /** Whether no step follows @p time, but for round-off. */
+    bool is_over(const double time) const
+    {
+      return time >= end - 1e-9 * step;
+    }
     /** Whether a step that begins at @p start is a load step before motion. */
     bool rests_after(const double start) const
     {
