@@ -143,8 +143,7 @@ namespace Impoint
     const std::size_t  n_local = slivers.size();
     std::vector<char>  core    = slivers;
     for (unsigned int node = 0; node < n_local; ++node)
-      if (enforced[node] ||
-          (!problem.regularisation.empty() && problem.regularisation[node] > 0))
+      if (enforced[node])
         core[node] = true;
     const std::vector<char> in_band = with_neighbours(problem, core);
 
@@ -228,12 +227,7 @@ namespace Impoint
       {
         band.copy(problem.matrix);
         coupling.copy(problem.matrix);
-        const auto failed =
-          band_factor.factorize(band.matrix,
-                                problem.regularisation.empty() ?
-                                  std::vector<double>() :
-                                  select_nodes(problem.regularisation,
-                                               band.rows));
+        const auto failed = band_factor.factorize(band.matrix);
         if (failed)
           return band_factor.owns(*failed) ?
                    band.rows[*failed - band_factor.first_number()] :
@@ -242,19 +236,12 @@ namespace Impoint
     if (v_cycle)
       {
         outer.copy(moderate);
-        if (!problem.regularisation.empty())
-          add_to_diagonal(select_nodes(problem.regularisation, outer.rows),
-                          outer.matrix);
         v_cycle->new_matrix(outer.matrix);
       }
     band_right.resize(band.rows.size() * dim);
     band_solution.resize(band.rows.size() * dim);
-    // a ridge makes the factor inexact; without O there is nothing to iterate
-    const bool ridge =
-      std::any_of(problem.regularisation.begin(),
-                  problem.regularisation.end(),
-                  [](const double value) { return value > 0; });
-    condenses = has_band && v_cycle && everywhere(!ridge);
+    // without O there is nothing to iterate
+    condenses = has_band && v_cycle;
     return {};
   }
 

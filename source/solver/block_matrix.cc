@@ -86,26 +86,8 @@ namespace Impoint
     return positions;
   }
 
-  template <int dim>
-  void add_to_diagonal(const std::vector<double> &ridge,
-                       BlockMatrix<dim>          &matrix)
-  {
-    if (std::all_of(ridge.begin(), ridge.end(), [](const double value) {
-          return value == 0;
-        }))
-      return;
-    const std::vector<std::size_t> diagonal = diagonal_blocks(*matrix.pattern);
-    for (std::size_t row = 0; row < ridge.size(); ++row)
-      for (unsigned int d = 0; d < dim; ++d)
-        matrix.values[diagonal[row] * dim * dim + d * (dim + 1)] += ridge[row];
-  }
-
   template struct BlockMatrix<2>;
   template struct BlockMatrix<3>;
   template struct BlockSubmatrix<2>;
   template struct BlockSubmatrix<3>;
-  template void add_to_diagonal<2>(const std::vector<double> &,
-                                   BlockMatrix<2> &);
-  template void add_to_diagonal<3>(const std::vector<double> &,
-                                   BlockMatrix<3> &);
 } // namespace Impoint

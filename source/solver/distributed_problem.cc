@@ -54,7 +54,6 @@ namespace Impoint
       distributed.nodes.update(values);
       return values;
     };
-    distributed.regularisation = share(local.regularisation);
     const auto enforced = share({local.enforced.begin(), local.enforced.end()});
     distributed.enforced.assign(enforced.begin(), enforced.end());
   }

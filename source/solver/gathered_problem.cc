@@ -76,17 +76,16 @@ namespace Impoint
   void GatheredProblem<dim>::gather_nodes(const LinearProblem<dim> &local)
   {
     const unsigned int  n     = active->n_nodes();
-    const unsigned int  width = 2 + 2 * dim;
+    const unsigned int  width = 1 + 2 * dim;
     std::vector<double> nodes(n * width, 0.);
     for (unsigned int i = 0; i < n; ++i)
       {
-        nodes[i * width]     = local.regularisation[i];
-        nodes[i * width + 1] = local.enforced[i];
+        nodes[i * width] = local.enforced[i];
         for (unsigned int d = 0; d < dim; ++d)
           {
-            nodes[i * width + 2 + d] = local.points[i][d];
+            nodes[i * width + 1 + d] = local.points[i][d];
             if (!local.lattice.empty())
-              nodes[i * width + 2 + dim + d] = local.lattice[i][d];
+              nodes[i * width + 1 + dim + d] = local.lattice[i][d];
           }
       }
     const auto all = Utilities::MPI::gather(comm, nodes, 0);
@@ -95,7 +94,6 @@ namespace Impoint
     const bool has_lattice   = !local.lines.empty();
     gathered.lines           = local.lines;
     const unsigned int n_all = n_unknowns / dim;
-    gathered.regularisation.assign(n_all, 0.);
     gathered.enforced.assign(n_all, false);
     gathered.points.assign(n_all, Point<dim>());
     gathered.lattice.assign(has_lattice ? n_all : 0, {});
@@ -104,15 +102,13 @@ namespace Impoint
         {
           const double      *node   = all[rank].data() + i * width;
           const unsigned int number = numbers[rank][i];
-          gathered.regularisation[number] =
-            std::max(gathered.regularisation[number], node[0]);
-          if (node[1] != 0)
+          if (node[0] != 0)
             gathered.enforced[number] = true;
           for (unsigned int d = 0; d < dim; ++d)
             {
-              gathered.points[number][d] = node[2 + d];
+              gathered.points[number][d] = node[1 + d];
               if (has_lattice)
-                gathered.lattice[number][d] = node[2 + dim + d];
+                gathered.lattice[number][d] = node[1 + dim + d];
             }
         }
   }

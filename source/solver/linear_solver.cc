@@ -124,8 +124,7 @@ namespace Impoint
     iterations_when_new       = 0;
     ++counters.factorisations;
     const std::optional<unsigned int> failed =
-      iterative ? band.renew(problem) :
-                  factor.factorize(problem.matrix, problem.regularisation);
+      iterative ? band.renew(problem) : factor.factorize(problem.matrix);
     if (failed)
       on_all_ranks(problem.nodes.communicator(), [&]() {
         if (*failed >= problem.pattern.n_rows())
@@ -372,11 +371,7 @@ namespace Impoint
                    "'Linear solver' copes with the latter.";
         throw StepFailed(message.str());
       }
-    // the regularisation's trace depends on the right-hand side
-    data.proved = !data.iterative && result.iterations == 1 &&
-                  std::none_of(problem.regularisation.begin(),
-                               problem.regularisation.end(),
-                               [](const double value) { return value > 0; });
+    data.proved = !data.iterative && result.iterations == 1;
   }
 
   template <int dim>

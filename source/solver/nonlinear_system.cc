@@ -83,7 +83,6 @@ namespace Impoint
     for (const auto &method : methods)
       problem.symmetric &= method->is_symmetric();
     problem.points.resize(active.n_nodes());
-    problem.regularisation.assign(active.n_nodes(), 0.);
     const auto &basis = active.basis();
     problem.lines     = basis.lines();
     problem.lattice.clear();

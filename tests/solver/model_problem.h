@@ -43,9 +43,6 @@ namespace ModelProblem
     /** Fixes the nodes at x = 1 conformingly, with this diagonal entry. */
     void fix_far_end(const double diagonal);
 
-    /** Regularises the nodes that share fewer than dim points. */
-    void starve(const double stiffness);
-
     LinearProblem<dim>  problem;
     std::vector<double> load;
 
@@ -203,7 +200,6 @@ namespace ModelProblem
         if (settings.lattice)
           problem.lattice.push_back(index);
       }
-    problem.regularisation.assign(nodes.size(), 0.);
     problem.enforced.assign(nodes.size(), false);
 
     std::vector<std::set<unsigned int>> neighbours(nodes.size());
@@ -328,18 +324,6 @@ namespace ModelProblem
                 row == problem.pattern.columns[k] && i % (dim + 1) == 0 ?
                   diagonal :
                   0.;
-  }
-
-  template <int dim>
-  void Block<dim>::starve(const double stiffness)
-  {
-    std::vector<unsigned int> n_points(problem.points.size());
-    for (const auto &[index, cell] : cells)
-      for (const unsigned int node : cell.nodes)
-        n_points[node] += cell.points.size();
-    for (unsigned int node = 0; node < n_points.size(); ++node)
-      problem.regularisation[node] =
-        n_points[node] < dim ? stiffness * std::pow(h, dim - 2) : 0.;
   }
 
   /** A linear solver at work on a problem. */

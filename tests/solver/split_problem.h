@@ -39,8 +39,6 @@ namespace ModelProblem
           if (!whole.lines.empty())
             part.lattice.push_back(whole.lattice[number]);
           part.enforced.push_back(whole.enforced[number]);
-          part.regularisation.push_back(
-            whole.regularisation.empty() ? 0. : whole.regularisation[number]);
         }
     }
 

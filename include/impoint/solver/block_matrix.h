@@ -50,11 +50,6 @@ namespace Impoint
   /** The position of the diagonal block of each row of a square matrix. */
   std::vector<std::size_t> diagonal_blocks(const BlockPattern &pattern);
 
-  /** Adds ridge[i] to the diagonal of row i; an empty ridge is zero. */
-  template <int dim>
-  void add_to_diagonal(const std::vector<double> &ridge,
-                       BlockMatrix<dim>          &matrix);
-
   // The kernels below stand in the header for the compiler to unroll them.
 
   /** y += factor a x for one block. */

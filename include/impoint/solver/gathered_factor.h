@@ -27,7 +27,8 @@ namespace Impoint
      * positive, if any.
      */
     std::optional<NodeExchange::Number>
-    factorize(const BlockMatrix<dim> &matrix, const std::vector<double> &ridge);
+    factorize(const BlockMatrix<dim>    &matrix,
+              const std::vector<double> &ridge = {});
 
     /** Of the rows here; and whether a global number is one of theirs. */
     NodeExchange::Number first_number() const

@@ -60,10 +60,6 @@ namespace Impoint
     BlockMatrix<dim> moderate;
     bool             has_moderate = false;
 
-    /** Per node: stiffness added to the diagonal in factors and preconditioners
-     * only, never in the matrix (starved nodes); 0 elsewhere. */
-    std::vector<double> regularisation;
-
     /** Per node: whether a cell with boundary particles holds it. */
     std::vector<char> enforced;
 
