@@ -227,7 +227,8 @@ namespace Impoint
       for (unsigned int b = 0; b < boundary->n(); ++b)
         {
           boundary->set_vector(b, slots.x, places[b]);
-          if (motion.rotates() && condition.motion == "with the value")
+          // the wall turns, whichever places its particles keep up with
+          if (motion.rotates())
             boundary->set_vector(b,
                                  slots.normal,
                                  rotation * boundary->vector(b, slots.normal));

@@ -205,9 +205,9 @@ namespace Impoint
       if (system.matrix == nullptr)
         return;
       const double part =
-        strength == Strength::exact ?
-          1. :
-          std::min(1., moderate_factor * unit(r) / patch.law.stiffness());
+        strength == Strength::moderate ?
+          std::min(1., moderate_factor * unit(r) / patch.law.stiffness()) :
+          1.;
       patch.add_stiffness(part * patch.law.stiffness() * answer.slope, system);
     }
 

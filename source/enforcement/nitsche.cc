@@ -7,6 +7,14 @@ namespace Impoint
 {
   namespace Enforcement
   {
+    namespace
+    {
+      // What holds accelerations, as a penalty in units of n.C.n/h.
+      constexpr double constraint_factor = 1e4;
+    } // namespace
+
+
+
     template <int dim>
     Nitsche<dim>::Nitsche(const ConditionParameters              &parameters,
                           PrescribedMotion<dim>                   motion,
@@ -131,11 +139,14 @@ namespace Impoint
               continue;
             }
           evaluate_gap(r, b, system.n, system.u, condition);
+          const double part = strength == Strength::constraint ?
+                                constraint_factor / factor() :
+                                condition.moderate;
           for (unsigned int a = 0; a < system.n; ++a)
             for (unsigned int c = 0; c < system.n; ++c)
               {
                 const Tensor<2, dim> block =
-                  condition.moderate * area * transpose(condition.share[a]) *
+                  part * area * transpose(condition.share[a]) *
                   condition.stiffness * condition.share[c];
                 double *to = system.matrix + (a * system.n + c) * dim * dim;
                 for (unsigned int i = 0; i < dim; ++i)

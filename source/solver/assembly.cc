@@ -73,7 +73,14 @@ namespace Impoint
   void Assembly<dim>::begin_step()
   {
     in_contact.assign(active.n_cells(), false);
-    empty_cells.fill();
+    empty_cells.rest();
+    for (const auto &method : methods)
+      if (method->is_active())
+        Enforcement::for_active_ranges(
+          *method, active, [&](const unsigned int, const unsigned int k) {
+            if (k >= active.n_material_cells())
+              empty_cells.fill(k);
+          });
     for (const auto &method : methods)
       if (method->is_active())
         Enforcement::for_active_ranges(
@@ -185,7 +192,8 @@ namespace Impoint
                  !ghost_penalty->holds(k))
           {
             empty_cells.add(k, system);
-            if (tangent_wanted && inertia != nullptr && in_contact[k])
+            if (tangent_wanted &&
+                (empty_cells.rests(k) || (inertia != nullptr && in_contact[k])))
               empty_cells.anchor(system);
           }
         scatter_residual(k);
@@ -217,6 +225,7 @@ namespace Impoint
   void Assembly<dim>::add_boundary(const unsigned int k,
                                    const Vector      &u,
                                    const bool         tangent_wanted,
+                                   const Part         part,
                                    const Function    &contribute)
   {
     CellSystem system;
@@ -228,7 +237,9 @@ namespace Impoint
         scatter(k, problem->moderate);
       }
     begin_cell(k, tangent_wanted, system);
-    contribute(Enforcement::Strength::exact, system);
+    contribute(part == Part::constraints ? Enforcement::Strength::constraint :
+                                           Enforcement::Strength::exact,
+               system);
     scatter_residual(k);
     if (tangent_wanted)
       scatter(k, problem->matrix);
@@ -253,6 +264,7 @@ namespace Impoint
             add_boundary(k,
                          u,
                          tangent_wanted,
+                         part,
                          [&](const Strength strength, CellSystem &system) {
                            method->add(r, strength, system);
                          });
@@ -262,6 +274,7 @@ namespace Impoint
             add_boundary(k,
                          u,
                          tangent_wanted,
+                         part,
                          [&](const Strength strength, CellSystem &system) {
                            method->add_link(l, strength, system);
                          });

@@ -8,6 +8,14 @@
 
 namespace Impoint
 {
+  namespace
+  {
+    // what is left of the stiffness where no boundary acts
+    constexpr double resting_part = 1e-9;
+  } // namespace
+
+
+
   template <int dim>
   EmptyCells<dim>::EmptyCells(const ActiveNodes<dim> &active,
                               const double            young,
@@ -25,15 +33,31 @@ namespace Impoint
     points.clear();
     for (unsigned int k = active.n_material_cells(); k < active.n_cells(); ++k)
       points.push_back(integrate(active.cell(k)));
-    fill();
+    parts.assign(points.size(), 1.);
   }
 
 
 
   template <int dim>
-  void EmptyCells<dim>::fill()
+  void EmptyCells<dim>::rest()
   {
-    parts.assign(points.size(), 1.);
+    parts.assign(points.size(), resting_part);
+  }
+
+
+
+  template <int dim>
+  bool EmptyCells<dim>::rests(const unsigned int k) const
+  {
+    return parts[k - active.n_material_cells()] == resting_part;
+  }
+
+
+
+  template <int dim>
+  void EmptyCells<dim>::fill(const unsigned int k)
+  {
+    parts[k - active.n_material_cells()] = 1.;
   }
 
 

@@ -29,8 +29,9 @@ namespace Impoint
     /** Strength with which a method adds itself to a matrix. */
     enum class Strength
     {
-      exact,   // the tangent
-      moderate // what the preconditioner's V-cycle can bear: 10 E/h
+      exact,     // the tangent
+      moderate,  // what the preconditioner's V-cycle can bear: 10 E/h
+      constraint // what holds alone, without the stiffness of the material
     };
 
     /**

@@ -96,6 +96,7 @@ namespace Impoint
     void   add_boundary(const unsigned int k,
                         const Vector      &u,
                         const bool         tangent_wanted,
+                        const Part         part,
                         const Function    &contribute);
     void   assemble_ghost_penalty(const Vector &u, const bool tangent_wanted);
     void   accelerations_of(const unsigned int k);

@@ -32,8 +32,14 @@ namespace Impoint
     /** After the set of active cells changed. */
     void reinit();
 
-    /** All cells resist as whole ones. */
-    void fill();
+    /** No cell has a boundary that acts, as in a grid that is kept before one
+     * does: next to no stiffness. */
+    void rest();
+
+    bool rests(const unsigned int k) const;
+
+    /** Active cell @p k resists as a whole one. */
+    void fill(const unsigned int k);
 
     /** Only the part of active cell @p k within @p half_space can be material
      * whose points happen to lie beyond: as much stiffness, but at least a
