@@ -31,7 +31,7 @@ namespace Impoint
       "particle's gap (P Eqs. 42-43); projected penalty: on the "
       "mean gap of each cell, which does not lock; lagrange multiplier: one "
       "for each cell (L); augmented Lagrangian: the same, from a penalty "
-      "factor of yours, with all constraints; implicit boundary: displacements "
+      "factor of yours; implicit boundary: displacements "
       "that vanish at the boundary by construction (I); nitsche: by the "
       "traction of the material itself, which the particles carry.",
       Patterns::Selection("penalty|projected penalty|augmented Lagrangian|"
@@ -82,7 +82,10 @@ namespace Impoint
       "all; share one among neighbours until it has 0.4 h^(dim-1) of the "
       "boundary (simplices: 1); remove superfluous ones (L Section 3.2.2); or "
       "stabilise all by a penalty on their jumps, which leaves gaps of "
-      "O(h^2). automatic: share by 'lagrange multiplier', else keep.",
+      "O(h^2). An implicit boundary keeps the gap of each particle, or shares "
+      "means. automatic: share by 'lagrange multiplier' and 'augmented "
+      "Lagrangian', and by 'implicit boundary' where it is not along faces or "
+      "directions of the cell; else keep.",
       Patterns::Selection("automatic|keep|remove|share|stabilise"));
     prm.add_parameter("Jump penalty",
                       jump_penalty,
@@ -191,6 +194,12 @@ namespace Impoint
             "Give the boundary a polyline or surface mesh along the grid's "
             "boundary instead of a boundary id.");
     check_unused(file, conforming);
+    if (enforcement == "implicit boundary" &&
+        (superfluous == "remove" || superfluous == "stabilise"))
+      clash("Superfluous constraints",
+            "an implicit boundary cannot '" + superfluous + "' constraints",
+            "Set 'share', 'keep' (the gap of each particle, as in paper I) or "
+            "'automatic'.");
     if (until <= from)
       clash("Active until",
             "the boundary ends before it begins",

@@ -20,23 +20,20 @@ namespace Impoint
 
 
 
-    namespace
+    template <int dim>
+    bool ConstrainedCells<dim>::nodes_are_vertices(const Basis<dim>  &basis,
+                                                   const unsigned int cell)
     {
-      /** Not those of hanging nodes, smooth or higher functions. */
-      template <int dim>
-      bool nodes_are_vertices(const Basis<dim> &basis, const unsigned int cell)
-      {
-        const auto nodes    = basis.nodes(cell);
-        const auto vertices = basis.grid().vertices(cell);
-        if (nodes.size() != vertices.size())
+      const auto nodes    = basis.nodes(cell);
+      const auto vertices = basis.grid().vertices(cell);
+      if (nodes.size() != vertices.size())
+        return false;
+      for (unsigned int a = 0; a < nodes.size(); ++a)
+        if (basis.point(nodes[a]).distance(vertices[a]) >
+            1e-8 * basis.grid().size(cell))
           return false;
-        for (unsigned int a = 0; a < nodes.size(); ++a)
-          if (basis.point(nodes[a]).distance(vertices[a]) >
-              1e-8 * basis.grid().size(cell))
-            return false;
-        return true;
-      }
-    } // namespace
+      return true;
+    }
 
 
 
@@ -79,18 +76,19 @@ namespace Impoint
     template <int dim>
     ConstrainedCells<dim>::ConstrainedCells(
       const BoundaryParticles<dim> &boundary,
-      const ActiveNodes<dim>       &active)
+      const ActiveNodes<dim>       &active,
+      const Choice                 &wanted)
       : simplicial(active.basis().grid().simplicial())
       , numbers_of_ranges(boundary.ranges().size(),
                           BackgroundGrid<dim>::nowhere)
     {
-      const auto       &basis = active.basis();
+      const auto       &basis  = active.basis();
+      const auto       &ranges = boundary.ranges();
       std::vector<Cell> own;
-      for (const auto &range : boundary.ranges())
-        if (active.position(range.cell) != BackgroundGrid<dim>::nowhere &&
-            nodes_are_vertices(basis, range.cell))
-          own.push_back(
-            describe(boundary, &range - boundary.ranges().data(), basis));
+      for (unsigned int r = 0; r < ranges.size(); ++r)
+        if (active.position(ranges[r].cell) != BackgroundGrid<dim>::nowhere &&
+            (!wanted || wanted(r)) && nodes_are_vertices(basis, ranges[r].cell))
+          own.push_back(describe(boundary, r, basis));
       for (const auto &part :
            Utilities::MPI::all_gather(basis.grid().communicator(), own))
         all.insert(all.end(), part.begin(), part.end());

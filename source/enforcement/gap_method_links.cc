@@ -25,8 +25,7 @@ namespace Impoint
       const std::string &choice = this->condition.superfluous;
       return projected && is_linear() &&
              (choice == "share" ||
-              (choice == "automatic" &&
-               this->condition.enforcement == "lagrange multiplier"));
+              (choice == "automatic" && this->condition.has_multipliers()));
     }
 
 
@@ -50,13 +49,13 @@ namespace Impoint
       if (!shares_constraints())
         return;
       const auto &ranges = this->boundary->ranges();
-      link_patches =
-        shared.collect(*this->current.active,
-                       this->begin_link(),
-                       normal_only,
-                       [&](const unsigned int r) {
-                         return make_patch(r, ranges[r].begin, ranges[r].end);
-                       });
+      link_patches       = shared.template collect<Patch>(
+        *this->current.active,
+        this->begin_link(),
+        [&](const unsigned int n) { return Patch(normal_only, n); },
+        [&](const unsigned int r) {
+          return make_patch(r, ranges[r].begin, ranges[r].end);
+        });
       for (unsigned int l = 0; l < link_patches.size(); ++l)
         link_patches[l].law = law(shared.middle(l), link_patches[l].area);
     }

@@ -12,6 +12,8 @@ namespace Impoint
       , rows(n_nodes)
     {
       Assert(n_nodes <= largest_support, ExcInternalError());
+      if (normal_only)
+        normal[0] = 1.;
     }
 
 
@@ -93,6 +95,74 @@ namespace Impoint
       for (unsigned int a = 0; a < n_nodes; ++a)
         sum += normal_only ? traction[0] * rows[a] : values[a] * traction;
       return sum;
+    }
+
+
+
+    template <int dim>
+    void GapPatch<dim>::add_part(const GapPatch                  &part,
+                                 const std::vector<unsigned int> &places)
+    {
+      area += part.area;
+      start_gap += part.area * part.start_gap;
+      multiplier += part.area * part.multiplier;
+      for (unsigned int a = 0; a < part.n_nodes; ++a)
+        {
+          values[places[a]] += part.area * part.values[a];
+          rows[places[a]] += part.area * part.rows[a];
+        }
+    }
+
+
+
+    template <int dim>
+    void GapPatch<dim>::divide_by_area()
+    {
+      start_gap /= area;
+      multiplier /= area;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        {
+          values[a] /= area;
+          rows[a] /= area;
+        }
+    }
+
+
+
+    template <int dim>
+    void GapPatch<dim>::pack(std::vector<double> &numbers) const
+    {
+      numbers.push_back(area);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          numbers.push_back(start_gap[d]);
+          numbers.push_back(multiplier[d]);
+        }
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        if (normal_only)
+          numbers.insert(numbers.end(), rows[a].begin_raw(), rows[a].end_raw());
+        else
+          numbers.push_back(values[a]);
+    }
+
+
+
+    template <int dim>
+    const double *GapPatch<dim>::unpack(const double *numbers)
+    {
+      area = *numbers++;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          start_gap[d]  = *numbers++;
+          multiplier[d] = *numbers++;
+        }
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        if (normal_only)
+          for (unsigned int d = 0; d < dim; ++d)
+            rows[a][d] = *numbers++;
+        else
+          values[a] = *numbers++;
+      return numbers;
     }
 
     template struct GapPatch<2>;

@@ -2,6 +2,8 @@
 #include <impoint/enforcement/implicit_boundary.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace Impoint
 {
@@ -82,78 +84,176 @@ namespace Impoint
       states.assign(this->boundary->ranges().size(), CellState());
       if (this->active_now && slip)
         normals.reinit(this->condition.normals, *this, *step.active);
-      if (this->active_now)
-        for_active_ranges(*this,
-                          *step.active,
-                          [&](const unsigned int r, const unsigned int) {
-                            states[r] = cell_state(r);
-                          });
+      if (!this->active_now)
+        return;
+      for_active_ranges(*this,
+                        *step.active,
+                        [&](const unsigned int r, const unsigned int) {
+                          states[r] = cell_state(r);
+                        });
+      link_patches = shared.template collect<Patch>(
+        *step.active,
+        this->begin_link(),
+        [](const unsigned int n) { return Patch(n); },
+        [&](const unsigned int r) { return mean(r); });
+    }
+
+
+
+    /** Whether the cell's functions can follow each particle of range @p r. */
+    template <int dim>
+    bool ImplicitBoundary<dim>::bears_each_particle(
+      const unsigned int      r,
+      const ActiveNodes<dim> &active) const
+    {
+      // what differs by less does not matter beside delta
+      constexpr double   alike = 1e-6;
+      const auto        &slots = this->boundary->slots();
+      const auto        &range = this->boundary->ranges()[r];
+      const unsigned int n     = active.basis().n_nodes_of(range.cell);
+      const auto         all   = [&](const auto &holds) {
+        for (unsigned int b = range.begin; b < range.end; ++b)
+          if (!holds(b))
+            return false;
+        return true;
+      };
+      if (active.basis().grid().simplicial())
+        {
+          for (unsigned int a = 0; a < n; ++a)
+            if (all([&](const unsigned int b) {
+                  return std::abs(this->boundary->support(b)[a]) < alike;
+                }))
+              return true;
+          return false;
+        }
+      for (unsigned int d = 0; d < dim; ++d)
+        if (all([&](const unsigned int b) {
+              // of the cell's coordinate d, the sum of half of the functions
+              Tensor<1, dim>       gradient;
+              const double        *gradients = this->boundary->support(b) + n;
+              const Tensor<1, dim> normal =
+                this->boundary->vector(b, slots.normal);
+              for (unsigned int a = 0; a < n; ++a)
+                if ((a >> d) & 1)
+                  for (unsigned int i = 0; i < dim; ++i)
+                    gradient[i] += gradients[a * dim + i];
+              const Tensor<1, dim> along =
+                gradient - (gradient * normal) * normal;
+              return along.norm() < alike * gradient.norm();
+            }))
+          return true;
+      return false;
     }
 
 
 
     template <int dim>
-    void ImplicitBoundary<dim>::evaluate(const unsigned int r,
-                                         const unsigned int b,
-                                         const unsigned int n,
-                                         const double      *u,
-                                         Condition         &condition) const
+    bool ImplicitBoundary<dim>::holds_each_particle(const unsigned int r) const
+    {
+      return bears_each[r] || shared.is_lonely(r);
+    }
+
+
+
+    template <int dim>
+    void ImplicitBoundary<dim>::make_links(const ActiveNodes<dim> &active,
+                                           Links                  &links)
+    {
+      const std::string &choice = this->condition.superfluous;
+      const auto        &ranges = this->boundary->ranges();
+      bears_each.assign(ranges.size(), true);
+      for_active_ranges(
+        *this, active, [&](const unsigned int r, const unsigned int) {
+          bears_each[r] =
+            choice == "keep" ||
+            !ConstrainedCells<dim>::nodes_are_vertices(active.basis(),
+                                                       ranges[r].cell) ||
+            (choice == "automatic" && bears_each_particle(r, active));
+        });
+      shared.find_groups(*this->boundary, active, [&](const unsigned int r) {
+        return !bears_each[r];
+      });
+      shared.append_links(links);
+    }
+
+
+
+    template <int dim>
+    BandPatch<dim> ImplicitBoundary<dim>::alone(const unsigned int r,
+                                                const unsigned int b) const
     {
       const auto          &slots   = this->boundary->slots();
       const CellState     &state   = states[r];
       const Tensor<1, dim> outward = this->boundary->vector(b, slots.normal);
-      const Tensor<1, dim> normal  = -outward;
       const Tensor<2, dim> one     = unit_symmetric_tensor<dim>();
-      const Tensor<2, dim> across  = outer_product(normal, normal);
       const Tensor<2, dim> weight =
-        state.filled * (slip ? one - 0.5 * across : 0.5 * one);
+        state.filled *
+        (slip ? one - 0.5 * outer_product(outward, outward) : 0.5 * one);
+      // what is held, of a vector: the whole or its part along the normal
+      Tensor<1, dim> first;
+      first[0]                  = 1.;
+      const Tensor<2, dim> held = slip ? outer_product(first, outward) : one;
 
-      condition.held     = slip ? across : one;
-      condition.acoustic = condition.held *
-                           acoustic_tensor(normal, state.tangent, normal) *
-                           condition.held;
-      // a slip boundary carries its gap along the normal in component 0
-      Tensor<1, dim> total = this->boundary->vector(b, slots.gap);
-      if (slip)
-        total = total[0] * outward;
-      condition.share.resize(n);
-      const double *N     = this->boundary->support(b);
-      const auto    nodes = this->current.active->nodes(
+      const auto nodes = this->current.active->nodes(
         this->current.active->position(this->boundary->ranges()[r].cell));
-      condition.gap =
-        condition.held * (total - this->boundary->vector(b, slots.increment));
-      for (unsigned int a = 0; a < n; ++a)
+      Patch patch(nodes.size());
+      patch.area      = this->boundary->area(b);
+      patch.start_gap = this->boundary->vector(b, slots.gap) -
+                        held * this->boundary->vector(b, slots.increment);
+      patch.start_traction =
+        -0.5 * state.filled * (held * (state.stress * outward));
+      patch.stiffness = inverse_width(r) * held *
+                        acoustic_tensor(outward, state.tangent, outward) *
+                        transpose(held);
+      const double *N         = this->boundary->support(b);
+      const double *gradients = N + nodes.size();
+      for (unsigned int a = 0; a < nodes.size(); ++a)
         {
-          condition.share[a] =
+          patch.share[a] =
             N[a] *
             (slip ?
-               outer_product(outward,
+               outer_product(first,
                              normals.direction(*this->boundary, b, nodes[a])) :
                one);
-          Tensor<1, dim> u_a;
+          Tensor<1, dim> gradient;
           for (unsigned int d = 0; d < dim; ++d)
-            u_a[d] = u[a * dim + d];
-          condition.gap += condition.share[a] * u_a;
+            gradient[d] = gradients[a * dim + d];
+          patch.flux[a] = -1. * held *
+                          acoustic_tensor(outward, state.tangent, gradient) *
+                          weight;
         }
-      condition.traction =
-        condition.held * (0.5 * state.filled * state.stress * normal) +
-        inverse_width(r) * condition.acoustic * condition.gap;
+      return patch;
+    }
 
-      condition.flux.resize(n);
-      const double *gradients = this->boundary->support(b) + n;
-      for (unsigned int a = 0; a < n; ++a)
-        {
-          Tensor<1, dim> gradient, u_a;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              gradient[d] = gradients[a * dim + d];
-              u_a[d]      = u[a * dim + d];
-            }
-          condition.flux[a] = condition.held *
-                              acoustic_tensor(normal, state.tangent, gradient) *
-                              weight;
-          condition.traction += condition.flux[a] * u_a;
-        }
+
+
+    /** Of all particles of range @p r. */
+    template <int dim>
+    BandPatch<dim> ImplicitBoundary<dim>::mean(const unsigned int r) const
+    {
+      const auto &range = this->boundary->ranges()[r];
+      Patch       patch(this->current.active->basis().n_nodes_of(range.cell));
+      std::vector<unsigned int> places(patch.n_nodes);
+      std::iota(places.begin(), places.end(), 0);
+      for (unsigned int b = range.begin; b < range.end; ++b)
+        patch.add_part(alone(r, b), places);
+      patch.divide_by_area();
+      return patch;
+    }
+
+
+
+    template <int dim>
+    void ImplicitBoundary<dim>::add_patch(const Patch   &patch,
+                                          const Strength strength,
+                                          CellSystem    &system) const
+    {
+      // moderate_factor / h over 4 / (3 delta)
+      const double part =
+        strength == Strength::moderate ?
+          std::min(1., 0.75 * moderate_factor * this->condition.band_width) :
+          1.;
+      patch.add(part, strength == Strength::exact, system);
     }
 
 
@@ -163,73 +263,80 @@ namespace Impoint
                                     const Strength     strength,
                                     CellSystem        &system) const
     {
-      const auto        &range = this->boundary->ranges()[r];
-      const unsigned int n     = system.n;
-      const bool         exact = strength == Strength::exact;
-      const double h = this->current.active->basis().grid().size(range.cell);
-      const double stiffness =
-        exact ? inverse_width(r) :
-                std::min(inverse_width(r), moderate_factor / h);
-      Condition condition;
+      if (shared.contains(r))
+        return;
+      if (!holds_each_particle(r))
+        return add_patch(mean(r), strength, system);
+      const auto &range = this->boundary->ranges()[r];
       for (unsigned int b = range.begin; b < range.end; ++b)
-        {
-          evaluate(r, b, n, system.u, condition);
-          const double area = this->boundary->area(b);
-          for (unsigned int a = 0; a < n; ++a)
-            {
-              const Tensor<1, dim> force =
-                area * (transpose(condition.share[a]) * condition.traction +
-                        transpose(condition.flux[a]) * condition.gap);
-              for (unsigned int d = 0; d < dim; ++d)
-                system.residual[a * dim + d] += force[d];
-            }
-          if (system.matrix == nullptr)
-            continue;
-          for (unsigned int a = 0; a < n; ++a)
-            for (unsigned int c = 0; c < n; ++c)
-              {
-                Tensor<2, dim> block = stiffness *
-                                       transpose(condition.share[a]) *
-                                       condition.acoustic * condition.share[c];
-                if (exact)
-                  block += transpose(condition.share[a]) * condition.flux[c] +
-                           transpose(condition.flux[a]) * condition.share[c];
-                double *to = system.matrix + (a * n + c) * dim * dim;
-                for (unsigned int i = 0; i < dim; ++i)
-                  for (unsigned int j = 0; j < dim; ++j)
-                    to[i * dim + j] += area * block[i][j];
-              }
-        }
+        add_patch(alone(r, b), strength, system);
     }
 
 
 
     template <int dim>
+    void ImplicitBoundary<dim>::add_link(const unsigned int l,
+                                         const Strength     strength,
+                                         CellSystem        &system) const
+    {
+      add_patch(link_patches[l], strength, system);
+    }
+
+
+
+    template <int dim>
+    void ImplicitBoundary<dim>::end_links(
+      const typename Method<dim>::LinkDisplacements &displacements)
+    {
+      std::vector<Tensor<1, dim>> tractions, gaps;
+      std::vector<double>         u;
+      for (unsigned int l = 0; l < link_patches.size(); ++l)
+        {
+          displacements(l, u);
+          tractions.push_back(link_patches[l].traction(u.data()));
+          gaps.push_back(link_patches[l].gap(u.data()));
+        }
+      const MPI_Comm comm = this->current.active->basis().grid().communicator();
+      shared_tractions    = shared.distribute(tractions, comm);
+      shared_gaps         = shared.distribute(gaps, comm);
+    }
+
+
+
+    /** Particles remember the gap that is held, the mean where it is one (see
+     * GapMethod). */
+    template <int dim>
     void ImplicitBoundary<dim>::end_step(const unsigned int r, const double *u)
     {
-      const auto        &slots = this->boundary->slots();
-      const auto        &range = this->boundary->ranges()[r];
-      const unsigned int n =
-        this->current.active->basis().n_nodes_of(range.cell);
-      Condition condition;
+      const auto    &slots = this->boundary->slots();
+      const auto    &range = this->boundary->ranges()[r];
+      Tensor<1, dim> traction, gap;
+      if (u != nullptr && shared.contains(r))
+        {
+          traction = shared_tractions[r];
+          gap      = shared_gaps[r];
+        }
+      else if (u != nullptr && !holds_each_particle(r))
+        {
+          const Patch patch = mean(r);
+          traction          = patch.traction(u);
+          gap               = patch.gap(u);
+        }
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
-          if (u == nullptr)
+          // what comes here next is met without a gap
+          Tensor<1, dim> force;
+          if (u != nullptr)
             {
-              // what comes here next is met without a gap
-              this->boundary->set_vector(b, slots.force, Tensor<1, dim>());
-              this->boundary->set_vector(b, slots.gap, Tensor<1, dim>());
-              continue;
+              const Patch patch = alone(r, b);
+              if (holds_each_particle(r))
+                {
+                  traction = patch.traction(u);
+                  gap      = patch.gap(u);
+                }
+              force = -patch.area * patch.total(traction);
             }
-          evaluate(r, b, n, u, condition);
-          Tensor<1, dim> gap = condition.gap;
-          if (slip)
-            {
-              gap    = Tensor<1, dim>();
-              gap[0] = condition.gap * this->boundary->vector(b, slots.normal);
-            }
-          this->boundary->set_vector(
-            b, slots.force, -this->boundary->area(b) * condition.traction);
+          this->boundary->set_vector(b, slots.force, force);
           this->boundary->set_vector(b, slots.gap, gap);
         }
     }

@@ -1,3 +1,5 @@
+#include <impoint/enforcement/band_patch.h>
+#include <impoint/enforcement/gap_patch.h>
 #include <impoint/enforcement/shared_constraints.h>
 
 #include <algorithm>
@@ -12,6 +14,7 @@ namespace Impoint
     {
       parts.clear();
       links.clear();
+      lonely.clear();
     }
 
 
@@ -19,16 +22,19 @@ namespace Impoint
     template <int dim>
     bool SharedConstraints<dim>::anything_changed(
       const BoundaryParticles<dim> &boundary,
-      const ActiveNodes<dim>       &active)
+      const ActiveNodes<dim>       &active,
+      const Choice                 &may_share)
     {
       std::vector<unsigned int> cells;
       std::vector<double>       particles;
-      for (const auto &range : boundary.ranges())
+      for (unsigned int r = 0; r < boundary.ranges().size(); ++r)
         {
+          const auto &range = boundary.ranges()[r];
           cells.push_back(range.cell);
           cells.push_back(range.end);
           cells.push_back(active.position(range.cell) !=
                           BackgroundGrid<dim>::nowhere);
+          cells.push_back(!may_share || may_share(r));
         }
       for (unsigned int b = 0; b < boundary.n(); ++b)
         {
@@ -55,13 +61,14 @@ namespace Impoint
     template <int dim>
     void
     SharedConstraints<dim>::find_groups(const BoundaryParticles<dim> &boundary,
-                                        const ActiveNodes<dim>       &active)
+                                        const ActiveNodes<dim>       &active,
+                                        const Choice                 &may_share)
     {
-      if (!anything_changed(boundary, active))
+      if (!anything_changed(boundary, active, may_share))
         return;
       clear();
       const auto                 &grid = active.basis().grid();
-      const ConstrainedCells<dim> constrained(boundary, active);
+      const ConstrainedCells<dim> constrained(boundary, active, may_share);
       const ConstraintGroups<dim> groups(constrained,
                                          grid.simplicial(),
                                          boundary.thickness());
@@ -72,6 +79,15 @@ namespace Impoint
       for (unsigned int r = 0; r < parts.size(); ++r)
         if (constrained.of_range(r) != BackgroundGrid<dim>::nowhere)
           range_of[constrained.of_range(r)] = r;
+
+      lonely.assign(parts.size(), false);
+      const auto piece = constrained.pieces(constrained.edge_neighbors());
+      std::vector<unsigned int> n_cells(cells.size(), 0);
+      for (const unsigned int i : piece)
+        ++n_cells[i];
+      for (unsigned int i = 0; i < cells.size(); ++i)
+        if (range_of[i] != nobody)
+          lonely[range_of[i]] = n_cells[piece[i]] < dim;
 
       const unsigned int me =
         Utilities::MPI::this_mpi_process(grid.communicator());
@@ -111,83 +127,13 @@ namespace Impoint
 
 
 
-    namespace
-    {
-      /** What a rank tells of its patch, as numbers. */
-      template <int dim>
-      void pack(const GapPatch<dim> &patch, std::vector<double> &numbers)
-      {
-        numbers.push_back(patch.area);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            numbers.push_back(patch.start_gap[d]);
-            numbers.push_back(patch.multiplier[d]);
-          }
-        for (unsigned int a = 0; a < patch.n_nodes; ++a)
-          if (patch.normal_only)
-            numbers.insert(numbers.end(),
-                           patch.rows[a].begin_raw(),
-                           patch.rows[a].end_raw());
-          else
-            numbers.push_back(patch.values[a]);
-      }
-
-      template <int dim>
-      const double *unpack(const double *numbers, GapPatch<dim> &patch)
-      {
-        patch.area = *numbers++;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            patch.start_gap[d]  = *numbers++;
-            patch.multiplier[d] = *numbers++;
-          }
-        for (unsigned int a = 0; a < patch.n_nodes; ++a)
-          if (patch.normal_only)
-            for (unsigned int d = 0; d < dim; ++d)
-              patch.rows[a][d] = *numbers++;
-          else
-            patch.values[a] = *numbers++;
-        return numbers;
-      }
-
-      /** Adds @p part, whose nodes are at @p places of @p sum's: until all are
-       * there, sums weighted by areas. */
-      template <int dim>
-      void add_part(const GapPatch<dim>             &part,
-                    const std::vector<unsigned int> &places,
-                    GapPatch<dim>                   &sum)
-      {
-        sum.area += part.area;
-        sum.start_gap += part.area * part.start_gap;
-        sum.multiplier += part.area * part.multiplier;
-        for (unsigned int a = 0; a < part.n_nodes; ++a)
-          {
-            sum.values[places[a]] += part.area * part.values[a];
-            sum.rows[places[a]] += part.area * part.rows[a];
-          }
-      }
-
-      template <int dim>
-      void divide_by_area(GapPatch<dim> &sum)
-      {
-        sum.start_gap /= sum.area;
-        sum.multiplier /= sum.area;
-        for (unsigned int a = 0; a < sum.n_nodes; ++a)
-          {
-            sum.values[a] /= sum.area;
-            sum.rows[a] /= sum.area;
-          }
-      }
-    } // namespace
-
-
-
     template <int dim>
-    std::vector<GapPatch<dim>> SharedConstraints<dim>::collect(
-      const ActiveNodes<dim>                                 &active,
-      const unsigned int                                      first,
-      const bool                                              normal_only,
-      const std::function<GapPatch<dim>(const unsigned int)> &patch) const
+    template <typename Patch>
+    std::vector<Patch> SharedConstraints<dim>::collect(
+      const ActiveNodes<dim>                         &active,
+      const unsigned int                              first,
+      const std::function<Patch(const unsigned int)> &empty,
+      const std::function<Patch(const unsigned int)> &patch) const
     {
       // In the order of links and members, whatever the number of ranks.
       using Place = std::pair<unsigned int, unsigned int>;
@@ -197,36 +143,33 @@ namespace Impoint
         if (contains(r))
           {
             places[parts[r].rank].emplace_back(parts[r].link, parts[r].member);
-            pack(patch(r), numbers[parts[r].rank]);
+            patch(r).pack(numbers[parts[r].rank]);
           }
       const MPI_Comm comm   = active.basis().grid().communicator();
       const auto     asked  = Utilities::MPI::some_to_some(comm, places);
       const auto     gotten = Utilities::MPI::some_to_some(comm, numbers);
-      std::map<Place, GapPatch<dim>> of_members;
+      std::map<Place, Patch> of_members;
       for (const auto &message : asked)
         {
           const double *next = gotten.at(message.first).data();
           for (const Place &place : message.second)
             {
               const unsigned int cell = links[place.first].cells[place.second];
-              GapPatch<dim> part(normal_only, active.basis().n_nodes_of(cell));
-              next = unpack(next, part);
+              Patch              part = empty(active.basis().n_nodes_of(cell));
+              next                    = part.unpack(next);
               of_members.emplace(place, part);
             }
         }
 
-      std::vector<GapPatch<dim>> result;
+      std::vector<Patch> result;
       for (unsigned int l = 0; l < links.size(); ++l)
         {
           const unsigned int k = active.link(first + l);
-          result.emplace_back(normal_only, active.nodes(k).size());
+          result.push_back(empty(active.nodes(k).size()));
           for (unsigned int m = 0; m < links[l].cells.size(); ++m)
-            add_part(of_members.at({l, m}),
-                     active.places(k, links[l].cells[m]),
-                     result.back());
-          divide_by_area(result.back());
-          if (normal_only)
-            result.back().normal[0] = 1.;
+            result.back().add_part(of_members.at({l, m}),
+                                   active.places(k, links[l].cells[m]));
+          result.back().divide_by_area();
         }
       return result;
     }
@@ -255,5 +198,17 @@ namespace Impoint
 
     template class SharedConstraints<2>;
     template class SharedConstraints<3>;
+
+#define INSTANTIATE(dim, Patch)                                     \
+  template std::vector<Patch<dim>> SharedConstraints<dim>::collect( \
+    const ActiveNodes<dim> &,                                       \
+    const unsigned int,                                             \
+    const std::function<Patch<dim>(const unsigned int)> &,          \
+    const std::function<Patch<dim>(const unsigned int)> &) const;
+    INSTANTIATE(2, GapPatch)
+    INSTANTIATE(3, GapPatch)
+    INSTANTIATE(2, BandPatch)
+    INSTANTIATE(3, BandPatch)
+#undef INSTANTIATE
   } // namespace Enforcement
 } // namespace Impoint

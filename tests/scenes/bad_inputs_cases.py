@@ -57,6 +57,9 @@ SCENES = [
     ("0; -0.00981", "0; 0; -9.81", "3 components instead of 2"),
     ("Enforcement = projected penalty", "Enforcement = penlty",
      "'penlty' is not allowed.*mean 'penalty'"),
+    ("Enforcement = projected penalty", "Enforcement = implicit boundary\n"
+     "    set Superfluous constraints = remove", "cannot 'remove' constraints",
+     "set Superfluous"),
     # meshes
     (MESH, MESH.replace("hyper_rectangle", "hyper_rectangel"),
      "no generator 'subdivided_hyper_rectangel'.*mean"),

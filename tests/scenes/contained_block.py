@@ -41,7 +41,8 @@ def check_table():
 
 def check_angles():
     for angle in (*TABLE_1, *OTHER_ANGLES):
-        found = errors(angle, widths(1e-6))
+        # Of each particle's gap; means of cells at the corners add up to 16 %.
+        found = errors(angle, widths(1e-6) + sides("Superfluous constraints = keep"))
         print(f"{angle} degrees, width 1e-6: r_u {found[0]:.3e}, r_sigma_xx "
               f"{found[1]:.4e}, by hand {1e-6 * STRESS_FACTOR:.4e}")
         expect(abs(found[1] / (1e-6 * STRESS_FACTOR) - 1) < 0.05,

@@ -7,6 +7,7 @@
 #include <deal.II/grid/cell_id.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace Impoint
@@ -48,9 +49,16 @@ namespace Impoint
       /** Two vertices of a cell, as numbers of its own. */
       using Edge = std::pair<unsigned int, unsigned int>;
 
-      /** Collective. */
+      using Choice = std::function<bool(const unsigned int r)>;
+
+      /** Of the ranges that @p wanted wants, or of all. Collective. */
       ConstrainedCells(const BoundaryParticles<dim> &boundary,
-                       const ActiveNodes<dim>       &active);
+                       const ActiveNodes<dim>       &active,
+                       const Choice                 &wanted = nullptr);
+
+      /** Whether the unknowns of grid cell @p cell are its vertices. */
+      static bool nodes_are_vertices(const Basis<dim>  &basis,
+                                     const unsigned int cell);
 
       const std::vector<Cell> &cells() const
       {

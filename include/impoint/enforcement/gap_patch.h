@@ -7,6 +7,8 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <vector>
+
 namespace Impoint
 {
   namespace Enforcement
@@ -56,13 +58,24 @@ namespace Impoint
       /** Sum over the nodes of L_a^T t. */
       Tensor<1, dim> total(const Tensor<1, dim> &traction) const;
 
-      const bool         normal_only;
-      const unsigned int n_nodes;
-      unsigned int       begin = 0, end = 0; // particles
-      double             area  = 0;
-      double             reach = 0; // how far its particles are away
-      Tensor<1, dim>     normal, start_gap, multiplier;
-      TractionLaw        law;
+      /** Adds @p part, whose nodes are at @p places of these: until all are
+       * there, sums weighted by areas. */
+      void add_part(const GapPatch                  &part,
+                    const std::vector<unsigned int> &places);
+      void divide_by_area();
+
+      /** What ranks tell each other of it as numbers, and back; returns what
+       * follows. */
+      void          pack(std::vector<double> &numbers) const;
+      const double *unpack(const double *numbers);
+
+      bool           normal_only;
+      unsigned int   n_nodes;
+      unsigned int   begin = 0, end = 0; // particles
+      double         area  = 0;
+      double         reach = 0; // how far its particles are away
+      Tensor<1, dim> normal, start_gap, multiplier;
+      TractionLaw    law;
 
       // L_a per node of the whole gap, and of the normal gap
       boost::container::small_vector<double, 27>         values;

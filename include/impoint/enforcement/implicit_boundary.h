@@ -1,10 +1,9 @@
 #ifndef impoint_enforcement_implicit_boundary_h
 #define impoint_enforcement_implicit_boundary_h
 
-#include <impoint/base/voigt.h>
+#include <impoint/enforcement/band_patch.h>
 #include <impoint/enforcement/nodal_normals.h>
-
-#include <vector>
+#include <impoint/enforcement/shared_constraints.h>
 
 namespace Impoint
 {
@@ -28,6 +27,14 @@ namespace Impoint
      * of the step enters as the mean of the cell's points. Both only shift the
      * gap, by the order of delta.
      *
+     * The band is a penalty of E/delta on each particle, which locks where a
+     * boundary cuts cells anyhow: two particles pin a triangle's three nodes
+     * but for one combination. Where functions can't bear that, the gap is its
+     * mean over the cell or over neighbours that share it, as a multiplier's (D
+     * then acts on the part of u that varies as slowly). They bear it where the
+     * boundary runs along a face, or in quadrilaterals and hexahedra along a
+     * direction of the cell: there the nodes of one side are as good as held.
+     *
      * A slice of material thinner than the band has K2 in proportion: the band
      * goes on in the next cell, and K2 whole would make the matrix indefinite.
      */
@@ -43,9 +50,19 @@ namespace Impoint
       void add(const unsigned int r,
                const Strength     strength,
                CellSystem        &system) const override;
+      void add_link(const unsigned int l,
+                    const Strength     strength,
+                    CellSystem        &system) const override;
+      void end_links(
+        const typename Method<dim>::LinkDisplacements &displacements) override;
       void end_step(const unsigned int r, const double *u) override;
 
+    protected:
+      void make_links(const ActiveNodes<dim> &active, Links &links) override;
+
     private:
+      using Patch = BandPatch<dim>;
+
       /** What a range's particles need to know of the material. */
       struct CellState
       {
@@ -54,30 +71,27 @@ namespace Impoint
         double           filled = 0; // part of the band with material
       };
 
-      /** The condition at a particle. */
-      struct Condition
-      {
-        Tensor<2, dim> held;     // projector onto what is held
-        Tensor<2, dim> acoustic; // held part of n.C.n [Pa]
-        Tensor<1, dim> gap;      // held part [m]
-        Tensor<1, dim> traction; // on the wall [Pa]
-
-        // per node, of its displacement: the part of the gap, N_a or with slip
-        // N_a n x n_a; and the held traction n.C, weighted by W
-        std::vector<Tensor<2, dim>> share, flux;
-      };
-
       CellState cell_state(const unsigned int r) const;
       double    inverse_width(const unsigned int r) const; // 4 / (3 delta)
-      void      evaluate(const unsigned int r,
-                         const unsigned int b,
-                         const unsigned int n,
-                         const double      *u,
-                         Condition         &condition) const;
+      bool      bears_each_particle(const unsigned int      r,
+                                    const ActiveNodes<dim> &active) const;
+      bool      holds_each_particle(const unsigned int r) const;
+
+      Patch alone(const unsigned int r, const unsigned int b) const;
+      Patch mean(const unsigned int r) const;
+      void  add_patch(const Patch   &patch,
+                      const Strength strength,
+                      CellSystem    &system) const;
 
       const bool             slip;
       NodalNormals<dim>      normals; // of a slip boundary
       std::vector<CellState> states;  // per range
+
+      std::vector<char>      bears_each; // per range
+      SharedConstraints<dim> shared;
+      std::vector<Patch>     link_patches;
+      // per range, of the step
+      std::vector<Tensor<1, dim>> shared_tractions, shared_gaps;
     };
   } // namespace Enforcement
 } // namespace Impoint

@@ -13,10 +13,9 @@ namespace Impoint
      * Lagrangian on the cell's mean gap, whose solution does not depend on the
      * factor gamma.
      *
-     * Both enforcements of this kind differ in who chooses gamma and in what
-     * becomes of superfluous constraints (L Section 3.2.2): with "lagrange
-     * multiplier" neighbours share one, "augmented Lagrangian" keeps all, which
-     * does little harm but to the multipliers' smoothness.
+     * Both enforcements of this kind differ in who chooses gamma. Where there
+     * are more cells than displacements can follow, neighbours share one (L
+     * Section 3.2.2 leaves some out).
      */
     template <int dim>
     class LagrangeMultiplier : public GapMethod<dim>

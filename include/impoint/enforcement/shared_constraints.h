@@ -2,7 +2,6 @@
 #define impoint_enforcement_shared_constraints_h
 
 #include <impoint/enforcement/constraint_groups.h>
-#include <impoint/enforcement/gap_patch.h>
 
 #include <functional>
 #include <vector>
@@ -20,12 +19,16 @@ namespace Impoint
     class SharedConstraints
     {
     public:
+      using Choice = typename ConstrainedCells<dim>::Choice;
+
       void clear();
 
-      /** Finds the groups of @p boundary, unless neither its particles nor the
+      /** Finds the groups of @p boundary among the ranges that @p may_share
+       * wants (all, by default), unless neither its particles nor these nor the
        * active cells that hold them changed since the last call. Collective. */
       void find_groups(const BoundaryParticles<dim> &boundary,
-                       const ActiveNodes<dim>       &active);
+                       const ActiveNodes<dim>       &active,
+                       const Choice                 &may_share = nullptr);
 
       /** Appends this rank's links: one for each group of several cells. */
       void append_links(Links &links) const;
@@ -34,6 +37,13 @@ namespace Impoint
       bool contains(const unsigned int r) const
       {
         return r < parts.size() && parts[r].rank != nobody;
+      }
+
+      /** Whether the cell of range @p r has so few beside it that means over
+       * them would not hold the boundary's rotations. */
+      bool is_lonely(const unsigned int r) const
+      {
+        return r < lonely.size() && lonely[r];
       }
 
       unsigned int n_links() const
@@ -47,13 +57,15 @@ namespace Impoint
         return links[l].middle;
       }
 
-      /** The patches of links, from those that @p patch gives for ranges of
-       * particles. @p first: place of the first link among all. Collective. */
-      std::vector<GapPatch<dim>> collect(
-        const ActiveNodes<dim>                                 &active,
-        const unsigned int                                      first,
-        const bool                                              normal_only,
-        const std::function<GapPatch<dim>(const unsigned int)> &patch) const;
+      /** The patches (GapPatch, BandPatch) of links, from those that @p patch
+       * gives for ranges of particles; @p empty makes one of so many nodes. @p
+       * first: place of the first link among all. Collective. */
+      template <typename Patch>
+      std::vector<Patch>
+      collect(const ActiveNodes<dim>                         &active,
+              const unsigned int                              first,
+              const std::function<Patch(const unsigned int)> &empty,
+              const std::function<Patch(const unsigned int)> &patch) const;
 
       /** A vector for each range, from those of links. Collective. */
       std::vector<Tensor<1, dim>>
@@ -71,7 +83,8 @@ namespace Impoint
       };
 
       bool anything_changed(const BoundaryParticles<dim> &boundary,
-                            const ActiveNodes<dim>       &active);
+                            const ActiveNodes<dim>       &active,
+                            const Choice                 &may_share);
 
       struct Link
       {
@@ -80,11 +93,12 @@ namespace Impoint
         std::vector<unsigned int> ranks;  // that own them
       };
 
-      std::vector<Part> parts; // per range
-      std::vector<Link> links; // of this rank
+      std::vector<Part> parts;  // per range
+      std::vector<Link> links;  // of this rank
+      std::vector<char> lonely; // per range
 
-      // Of the last groups: each cell and whether it was active; places,
-      // normals and areas of the particles.
+      // Of the last groups: each cell and whether it was active and could
+      // share; places, normals and areas of the particles.
       std::vector<unsigned int> last_cells;
       std::vector<double>       last_particles;
       bool                      fresh = true;
