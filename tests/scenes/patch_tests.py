@@ -31,10 +31,12 @@ GRIDS = {
 }
 # A boundary each, as multipliers are constant in a cell and tractions of two sides
 # differ.
-# Constraints that hardly differ are told apart the sooner the larger gamma.
+# Constraints that hardly differ, where cells share none, are told apart the sooner
+# the larger gamma.
 FACTORS = {method: 1e4 for method in ("penalty", "projected penalty",
-                                      "implicit boundary", "lagrange multiplier")}
-FACTORS["augmented Lagrangian"] = FACTORS["stabilised"] = 1e6
+                                      "implicit boundary", "augmented Lagrangian",
+                                      "lagrange multiplier")}
+FACTORS["stabilised"] = 1e6
 SIDES = {2: ("left", "right", "bottom", "top"),
          3: ("left", "right", "bottom", "top", "back", "front")}
 # Largest error of the displacement. Multipliers are exact; a penalty of 1e4 E/h
