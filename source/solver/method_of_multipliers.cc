@@ -171,7 +171,14 @@ namespace Impoint
           break; // round-off
       }
     set(present);
-    after = present;
+    if (!exact)
+      {
+        // What slides leaves the part of its multiplier along the wall unseen
+        // in all residuals above, so that it may be anything.
+        assembly.update_multipliers(place, forces);
+        total += forces;
+      }
+    after = get();
     delta.update_ghost_values();
     return total;
   }
