@@ -171,7 +171,9 @@ namespace Impoint
           break; // round-off
       }
     set(present);
-    if (!exact)
+    if (std::any_of(methods.begin(), methods.end(), [](const auto &method) {
+          return method->is_active() && !method->is_symmetric();
+        }))
       {
         // What slides leaves the part of its multiplier along the wall unseen
         // in all residuals above, so that it may be anything.
