@@ -312,12 +312,11 @@ namespace Impoint
           return store(r,
                        make_patch(r, range.begin, range.end),
                        answer,
-                       shared_gaps[r],
-                       u);
+                       shared_gaps[r]);
         }
       if (u != nullptr && takes_part(r))
         return for_patches(r, [&](const Patch &patch) {
-          store(r, patch, answer(patch, u), patch.gap(u), u);
+          store(r, patch, answer(patch, u), patch.gap(u));
         });
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
@@ -338,16 +337,14 @@ namespace Impoint
     void GapMethod<dim>::store(const unsigned int            r,
                                const Patch                  &patch,
                                const typename Patch::Answer &answer,
-                               const Tensor<1, dim>         &common_gap,
-                               const double                 *u)
+                               const Tensor<1, dim>         &common_gap)
     {
       const auto &slots = this->boundary->slots();
       const Touch touch = contacts[patch.begin].touch;
       for (unsigned int b = patch.begin; b < patch.end; ++b)
         {
           const Patch    alone = this->alone(r, b);
-          Tensor<1, dim> gap =
-            this->condition.releasing ? alone.gap(u) : common_gap;
+          Tensor<1, dim> gap   = common_gap;
           if (touch == Touch::open || !is_in(patch, b))
             gap = Tensor<1, dim>();
           else if (touch == Touch::slides)

@@ -139,8 +139,7 @@ namespace Impoint
       void store(const unsigned int            r,
                  const Patch                  &patch,
                  const typename Patch::Answer &answer,
-                 const Tensor<1, dim>         &common_gap,
-                 const double                 *u);
+                 const Tensor<1, dim>         &common_gap);
 
       const bool projected;
       const bool normal_only; // whether only the normal gap counts
