@@ -2,6 +2,8 @@
 
 On as many ranks with the same digits, on other numbers of ranks to 1e-9. A
 damaged checkpoint is recognised; a signal and a failure leave one.
+
+Argument: none, or 'collapse' for ten kills each of a collapse of sand (2 minutes).
 """
 
 import json
@@ -11,6 +13,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 
@@ -38,6 +41,8 @@ MULTIPLIERS = [*BAR, "--set", "Grid/Cells = tetrahedra", "--set",
 VORTEX_RUN = [driver.SCENES / "beyond/generalised-vortex.prm", *(
     word for setting in [*VORTEX, "Output/Checkpoint every = 2"]
     for word in ("--set", setting))]
+COLLAPSE = [driver.SCENES / "multiplier/4.5-granular-column-penalty.prm",
+            "--set", "Time/End time = 0.2", "--set", "Output/Checkpoint every = 7"]
 RANDOM = random.Random(5)
 
 
@@ -48,7 +53,7 @@ def command(arguments, ranks):
 
 def finish(arguments, ranks=1, status=0):
     process = subprocess.run(command(arguments, ranks), capture_output=True,
-                             text=True, timeout=200)
+                             text=True, timeout=1000)
     expect(process.returncode == status, f"{arguments} on {ranks} ranks: "
            f"{process.returncode}\n{process.stdout}{process.stderr}")
     return process.stdout + process.stderr
@@ -99,7 +104,8 @@ def has_checkpoint(folder):
     return any((folder / "checkpoint").glob("*.state"))
 
 
-def kill_and_resume(title, scene, ranks, n_kills, others):
+def kill_and_resume(title, scene, ranks, n_kills, others, longest=0.7):
+    """Between kills it runs for at most the part longest of the whole."""
     whole, killed = Path(f"{title}-{ranks}"), Path(f"{title}-{ranks}-killed")
     start = time.monotonic()
     finish([*scene, "--output", whole, "--overwrite"], ranks)
@@ -112,8 +118,9 @@ def kill_and_resume(title, scene, ranks, n_kills, others):
             seconds, [*scene, "--output", killed, "--overwrite"], ranks)
         n += was_killed
         seconds *= 1.3 if was_killed else 0.6
-    while n < n_kills and kill_after(RANDOM.uniform(0.2, 0.7) * duration,
-                                     ["--resume", killed], ranks):
+    while n < n_kills and kill_after(
+            RANDOM.uniform(0.3, 1) * longest * duration,
+            ["--resume", killed], ranks):
         n += 1
     for other in others:
         copy = Path(f"{title}-{ranks}-to-{other}")
@@ -129,6 +136,11 @@ def kill_and_resume(title, scene, ranks, n_kills, others):
     print(f"{title}, {ranks} ranks, killed {n} times: same digits", flush=True)
 
 
+def collapse():
+    for ranks in (1, 2):
+        kill_and_resume("collapse", COLLAPSE, ranks, 10, [3 - ranks, 3], 0.15)
+
+
 def main():
     for ranks in (1, 2):
         kill_and_resume("block", BLOCK, ranks, 5, [3 - ranks, 3])
@@ -138,4 +150,4 @@ def main():
 
 
 if __name__ == "__main__":
-    main()
+    collapse() if "collapse" in sys.argv[1:] else main()
