@@ -5,7 +5,7 @@ Argument: n of the finest grid, of cells of 2^-n / 2 m (3).
 
 import sys
 
-from cantilever_runs import KINDS, SCENE, TIP, clamp, rate, size, tip
+from cantilever_runs import KINDS, SCENE, TIP, clamp, rate, results, size, tip
 from driver import expect
 
 SMALL_STRAIN_TIP = -6.78039621e-4
@@ -30,6 +30,22 @@ def errors(kind, settings, scene, exact, coarsest=2):
           f"rate {last:.2f}: kind {kind},",
           ", ".join(entry.split("=")[1].strip() for entry in settings), flush=True)
     return values, last
+
+
+def check_torsion():
+    """In 3D: the torque of implicit boundaries is that of multipliers."""
+    def torque(method, choice="automatic"):
+        settings = [f"Boundaries/{side}/{entry}" for side in ("held", "turned") for entry in
+                    (f"Enforcement = {method}", f"Superfluous constraints = {choice}")]
+        return results("beyond/twisted-bar", settings)["turning M_x"]["value"]
+
+    exact = torque("lagrange multiplier")
+    means, each = (torque("implicit boundary", choice) / exact
+                   for choice in ("automatic", "keep"))
+    print(f"torque {exact:.1f} Nm, with implicit boundaries {means:.7f}, of each "
+          f"particle {each:.2f} of it")
+    expect(abs(means - 1) < 1e-5, "torsion with implicit boundaries")
+    expect(each > 1.2, "implicit boundary of each particle must lock in torsion")
 
 
 def main():
@@ -68,3 +84,4 @@ def main():
 
 
 main()
+check_torsion()

@@ -34,9 +34,10 @@ def main():
         aligned = difference(upright, lying)
         inclined.append(difference(tilted, lying))
         print(f"cells of {160 / cells} mm: tip {lying[-1]:.3f} mm, 90 degrees "
-              f"differ by {aligned:.1e}, 45 degrees by {inclined[-1]:.3f}")
+              f"differ by {aligned:.1e}, 45 degrees by {inclined[-1]:.4f}")
         expect(aligned < 1e-3, "the curves at 0 and 90 degrees")
-    expect(inclined[1] < 0.75 * inclined[0], "45 degrees don't converge")
+    # 0.063 and 0.037 while each particle held its place, which locks at 45 degrees.
+    expect(max(inclined) < 0.005, "45 degrees lock")
 
 
 main()

@@ -55,7 +55,7 @@ def funnel():
     for row, other in zip(history, multiplier):
         print(f"force at {4 * row['time']:.0f} mm: {row['force F_x']:.1f} N/mm, "
               f"with multipliers {other['force F_x']:.1f} N/mm")
-        expect(abs(row["force F_x"] / other["force F_x"] - 1) < 0.05,
+        expect(abs(row["force F_x"] / other["force F_x"] - 1) < 0.01,
                "the curved wall locks")
     for row in history:
         for place in ("bottom", "middle", "top"):
