@@ -116,22 +116,6 @@ namespace Impoint
 
 
 
-    /** Whether the condition is the same with the opposite normal. */
-    bool is_two_sided(const ConditionParameters &condition)
-    {
-      const std::vector<std::string> on_the_gap = {"penalty",
-                                                   "projected penalty",
-                                                   "augmented Lagrangian",
-                                                   "lagrange multiplier"};
-      return condition.constraint == "traction" ||
-             (condition.constraint == "fixed" &&
-              std::count(on_the_gap.begin(),
-                         on_the_gap.end(),
-                         condition.enforcement) == 1);
-    }
-
-
-
     template <int dim>
     std::string doubt_about_normals(const ParameterFile       &file,
                                     const BoundaryParameters  &parameters,
@@ -149,7 +133,7 @@ namespace Impoint
       const std::string advice = std::string("Set Flip normal = ") +
                                  (parameters.flip_normal ? "false" : "true") +
                                  ", or list its corners in the opposite order.";
-      if (!is_two_sided(condition))
+      if (!condition.is_two_sided())
         throw file.error(parameters.section + "/Flip normal", wrong, advice);
       return "T" + wrong.substr(1) +
              ". Forces don't depend on that here, pictures do. " + advice;

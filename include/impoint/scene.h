@@ -4,9 +4,9 @@
 #include <impoint/enforcement/condition.h>
 #include <impoint/measurements/measurement_parameters.h>
 #include <impoint/particles/body_parameters.h>
-#include <impoint/solver/inertia.h>
 #include <impoint/solver/linear_solver.h>
 #include <impoint/solver/newton.h>
+#include <impoint/solver/time_parameters.h>
 
 #include <deque>
 #include <string>

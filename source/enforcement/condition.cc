@@ -1,10 +1,37 @@
 #include <impoint/base/parameter_file.h>
-#include <impoint/enforcement/condition.h>
+#include <impoint/enforcement/kinds.h>
 
 #include <deal.II/physics/transformations.h>
 
 namespace Impoint
 {
+  using Enforcement::TractionFrom;
+
+  bool ConditionParameters::has_multipliers() const
+  {
+    return Enforcement::kind(enforcement).traction == TractionFrom::multipliers;
+  }
+
+
+
+  bool ConditionParameters::carries_material() const
+  {
+    return constraint != "traction" &&
+           Enforcement::kind(enforcement).traction == TractionFrom::material;
+  }
+
+
+
+  bool ConditionParameters::is_two_sided() const
+  {
+    const auto from_what = Enforcement::kind(enforcement).traction;
+    return constraint == "traction" ||
+           (constraint == "fixed" && (from_what == TractionFrom::gap ||
+                                      from_what == TractionFrom::multipliers));
+  }
+
+
+
   void ConditionParameters::declare(ParameterFile     &file,
                                     const std::string &boundary_name)
   {
@@ -13,6 +40,12 @@ namespace Impoint
     auto &prm = file.handler();
     prm.enter_subsection("Boundaries");
     prm.enter_subsection(name);
+    std::vector<std::string> names, helps;
+    for (const auto &row : Enforcement::kinds())
+      {
+        names.push_back(row.name);
+        helps.push_back(row.name + ": " + row.help);
+      }
     prm.add_parameter("Constraint",
                       constraint,
                       "fixed: the whole displacement is prescribed; slip: its "
@@ -24,18 +57,11 @@ namespace Impoint
                       "Components that a roller holds: x, y, z, separated by "
                       "commas.",
                       Patterns::List(Patterns::Selection("x|y|z"), 0, 3));
-    prm.add_parameter(
-      "Enforcement",
-      enforcement,
-      "Method of a nonconforming boundary. penalty: on each "
-      "particle's gap (P Eqs. 42-43); projected penalty: on the "
-      "mean gap of each cell, which does not lock; lagrange multiplier: one "
-      "for each cell (L); augmented Lagrangian: the same, from a penalty "
-      "factor of yours; implicit boundary: displacements "
-      "that vanish at the boundary by construction (I); nitsche: by the "
-      "traction of the material itself, which the particles carry.",
-      Patterns::Selection("penalty|projected penalty|augmented Lagrangian|"
-                          "lagrange multiplier|implicit boundary|nitsche"));
+    prm.add_parameter("Enforcement",
+                      enforcement,
+                      "Method of a nonconforming boundary. " +
+                        Words::join(helps, "; ") + ".",
+                      Patterns::Selection(Words::join(names, "|")));
     declare_factors(prm);
     prm.add_parameter(
       "Normals",
@@ -254,7 +280,9 @@ namespace Impoint
     // is changed in one line.
     refuse(conforming || traction, {"Releasing"}, kind);
     refuse(constraint != "slip" || conforming, {"Friction coefficient"}, kind);
-    refuse(enforcement == "implicit boundary" || enforcement == "nitsche",
+    const auto from_what = Enforcement::kind(enforcement).traction;
+    refuse(from_what == TractionFrom::functions ||
+             from_what == TractionFrom::material,
            {"Releasing", "Friction coefficient"},
            "'Enforcement' is '" + enforcement + "', which always holds");
     refuse(superfluous != "stabilise",

@@ -1,9 +1,5 @@
 #include <impoint/base/parameter_file.h>
-#include <impoint/enforcement/enforcement.h>
-#include <impoint/enforcement/implicit_boundary.h>
-#include <impoint/enforcement/lagrange_multiplier.h>
-#include <impoint/enforcement/nitsche.h>
-#include <impoint/enforcement/penalty.h>
+#include <impoint/enforcement/kinds.h>
 #include <impoint/enforcement/traction.h>
 
 #include <algorithm>
@@ -23,8 +19,7 @@ namespace Impoint
       if (condition.motion == "automatic")
         condition.motion =
           condition.constraint == "traction" ||
-              (condition.constraint == "slip" &&
-               condition.enforcement == "nitsche") ? // carries the material's F
+              (condition.constraint == "slip" && condition.carries_material()) ?
             "with the material" :
             "with the value";
     }
@@ -269,27 +264,8 @@ namespace Impoint
           std::move(motion),
           std::move(particles),
           Expression<dim>(file, parameters.section + "/Traction", dim));
-      const std::string &name = parameters.enforcement;
-      if (name == "penalty" || name == "projected penalty")
-        return std::make_unique<Penalty<dim>>(parameters,
-                                              std::move(motion),
-                                              std::move(particles));
-      if (name == "augmented Lagrangian" || name == "lagrange multiplier")
-        return std::make_unique<LagrangeMultiplier<dim>>(parameters,
-                                                         std::move(motion),
-                                                         std::move(particles));
-      if (name == "implicit boundary")
-        return std::make_unique<ImplicitBoundary<dim>>(parameters,
-                                                       std::move(motion),
-                                                       std::move(particles));
-      if (name == "nitsche")
-        return std::make_unique<Nitsche<dim>>(parameters,
-                                              std::move(motion),
-                                              std::move(particles));
-      throw file.error(parameters.section + "/Enforcement",
-                       "no enforcement is called '" + parameters.enforcement +
-                         "'",
-                       "see --print-parameters for the methods");
+      return std::get<dim - 2>(kind(parameters.enforcement).make)(
+        parameters, std::move(motion), std::move(particles));
     }
 
     template class Method<2>;

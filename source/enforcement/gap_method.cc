@@ -113,7 +113,7 @@ namespace Impoint
     bool GapMethod<dim>::augmented() const
     {
       for (unsigned int r = 0; r < this->boundary->ranges().size(); ++r)
-        if (law(r, 1.).augmented)
+        if (law(r, 1.).augmented) // whatever the area
           return true;
       return false;
     }

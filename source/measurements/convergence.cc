@@ -22,7 +22,8 @@ namespace Impoint
 
 
     template <int dim>
-    Convergence<dim>::Convergence(const MeasurementParameters &parameters)
+    Convergence<dim>::Convergence(const ParameterFile & /*file*/,
+                                  const MeasurementParameters &parameters)
       : name(parameters.name)
       , smallest_order(std::numeric_limits<double>::infinity())
     {}

@@ -10,13 +10,30 @@ namespace Impoint
 {
   namespace Measurements
   {
+    namespace
+    {
+      /** Names of a field's components in the order in which expressions give
+       * them: x, y(, z), or those of base/voigt.h, followed by zz in 2D. */
+      template <int dim>
+      std::vector<std::string> field_components(const std::string &quantity)
+      {
+        using Names = std::vector<std::string>;
+        if (quantity != "stress error")
+          return dim == 2 ? Names{"x", "y"} : Names{"x", "y", "z"};
+        return dim == 2 ? Names{"xx", "yy", "xy", "zz"} :
+                          Names{"xx", "yy", "zz", "xy", "xz", "yz"};
+      }
+    } // namespace
+
+
+
     template <int dim>
     FieldError<dim>::Selection::Selection(
       const ParameterFile         &file,
       const MeasurementParameters &parameters)
     {
       const std::string path       = parameters.section + "/Exact";
-      const auto        components = field_components(parameters.quantity, dim);
+      const auto        components = field_components<dim>(parameters.quantity);
       const unsigned int n         = Words::split(file.value(path), ';').size();
       const unsigned int one =
         std::find(components.begin(), components.end(), parameters.component) -
@@ -64,6 +81,27 @@ namespace Impoint
                                 const MeasurementParameters &parameters)
       : FieldError(file, parameters, Selection(file, parameters))
     {}
+
+
+
+    template <int dim>
+    void FieldError<dim>::check(const ParameterFile         &file,
+                                const MeasurementParameters &parameters)
+    {
+      const std::string path = parameters.section + "/Exact";
+      if (file.value(path).empty())
+        throw file.error(path,
+                         "an error needs exact values",
+                         "Set expressions of x, y(, z), t separated by ';'.");
+      const auto  components = field_components<dim>(parameters.quantity);
+      const auto &component  = parameters.component;
+      if (component != "norm" && component != "all" &&
+          std::count(components.begin(), components.end(), component) == 0)
+        throw file.error(parameters.section + "/Component",
+                         "'" + component + "' is no component of the field",
+                         "Set norm, all, or one of " +
+                           Words::join(components, ", ") + ".");
+    }
 
 
 

@@ -1,13 +1,4 @@
-#include <impoint/measurements/body_path.h>
-#include <impoint/measurements/convergence.h>
-#include <impoint/measurements/energy.h>
-#include <impoint/measurements/field_error.h>
-#include <impoint/measurements/impulse.h>
-#include <impoint/measurements/penetration.h>
-#include <impoint/measurements/probe.h>
-#include <impoint/measurements/reaction.h>
-#include <impoint/measurements/run_out.h>
-#include <impoint/measurements/surface_slope.h>
+#include <impoint/measurements/quantities.h>
 
 namespace Impoint
 {
@@ -76,34 +67,6 @@ namespace Impoint
         const double                      until;
       };
 
-
-
-      template <int dim>
-      std::unique_ptr<Measurement<dim>>
-      create_quantity(const ParameterFile         &file,
-                      const MeasurementParameters &parameters)
-      {
-        const std::string &quantity = parameters.quantity;
-        if (quantity == "probe")
-          return std::make_unique<Probe<dim>>(file, parameters);
-        if (quantity == "reaction")
-          return std::make_unique<Reaction<dim>>(file, parameters);
-        if (quantity == "impulse")
-          return std::make_unique<Impulse<dim>>(file, parameters);
-        if (quantity == "path")
-          return std::make_unique<BodyPath<dim>>(file, parameters);
-        if (quantity == "penetration")
-          return std::make_unique<Penetration<dim>>(file, parameters);
-        if (quantity == "run-out")
-          return std::make_unique<RunOut<dim>>(file, parameters);
-        if (quantity == "slope")
-          return std::make_unique<SurfaceSlope<dim>>(file, parameters);
-        if (quantity == "energy")
-          return std::make_unique<Energy<dim>>(file, parameters);
-        if (quantity == "newton")
-          return std::make_unique<Convergence<dim>>(parameters);
-        return std::make_unique<FieldError<dim>>(file, parameters);
-      }
     } // namespace
 
 
@@ -112,8 +75,9 @@ namespace Impoint
     std::unique_ptr<Measurement<dim>>
     create(const ParameterFile &file, const MeasurementParameters &parameters)
     {
-      return std::make_unique<TimeLimit<dim>>(create_quantity<dim>(file,
-                                                                   parameters),
+      const auto &functions = quantity(parameters.quantity).functions<dim>();
+      return std::make_unique<TimeLimit<dim>>(functions.create(file,
+                                                               parameters),
                                               parameters.until);
     }
 

@@ -1,65 +1,39 @@
 #include <impoint/base/parameter_file.h>
-#include <impoint/measurements/measurement_parameters.h>
-#include <impoint/measurements/named_values.h>
+#include <impoint/measurements/quantities.h>
 
 #include <algorithm>
-#include <map>
+#include <cctype>
 
 namespace Impoint
 {
   namespace
   {
-    using EntryNames = std::vector<std::string>;
+    using Names = std::vector<std::string>;
+    using Measurements::Quantity;
 
-    const EntryNames field_entries = {"Body",
-                                      "Exact",
-                                      "Position",
-                                      "Norm",
-                                      "Component",
-                                      "Frame angle",
-                                      "Point",
-                                      "Scale"};
-
-    /** The entries that each quantity looks at, besides those of all. */
-    const std::map<std::string, EntryNames> used_entries = {
-      {"probe", {"Point", "Reference"}},
-      {"reaction", {"Boundary", "Point", "Reference"}},
-      {"impulse", {"Boundary", "Reference"}},
-      {"displacement error", field_entries},
-      {"velocity error", field_entries},
-      {"stress error", field_entries},
-      {"path", {"Body", "Direction", "Axis", "Reference"}},
-      {"penetration", {"Boundary", "Body"}},
-      {"run-out", {"Body", "Direction", "Reference"}},
-      {"slope", {"Body", "Direction", "Axis", "Reference"}},
-      {"energy", {"Reference"}},
-      {"newton", {}}};
-
-    bool is_one_of(const std::string &name, const EntryNames &names)
+    /** What @p text makes of each quantity, joined; empty parts left out. */
+    template <typename Text>
+    std::string join(const std::string &separator, const Text &text)
     {
-      return std::find(names.begin(), names.end(), name) != names.end();
+      Names parts;
+      for (const Quantity &quantity : Measurements::quantities())
+        if (const std::string part = text(quantity); !part.empty())
+          parts.push_back(part);
+      return Words::join(parts, separator);
     }
 
-    std::string names_of_quantities()
+
+
+    /** The quantities that look at @p entry: "Path, run-out". */
+    std::string users_of(const std::string &entry)
     {
-      EntryNames names;
-      for (const auto &quantity : used_entries)
-        names.push_back(quantity.first);
-      return Words::join(names, "|");
+      std::string names = join(", ", [&](const Quantity &quantity) {
+        return quantity.uses(entry) ? quantity.name : "";
+      });
+      names[0]          = std::toupper(names[0]);
+      return names;
     }
   } // namespace
-
-
-
-  std::vector<std::string>
-  Measurements::field_components(const std::string &quantity,
-                                 const unsigned int dim)
-  {
-    if (quantity != "stress error")
-      return dim == 2 ? EntryNames{"x", "y"} : EntryNames{"x", "y", "z"};
-    return dim == 2 ? EntryNames{"xx", "yy", "xy", "zz"} :
-                      EntryNames{"xx", "yy", "zz", "xy", "xz", "yz"};
-  }
 
 
 
@@ -72,20 +46,16 @@ namespace Impoint
     auto &prm = file.handler();
     prm.enter_subsection("Measurements");
     prm.enter_subsection(name);
-    prm.add_parameter(
-      "Quantity",
-      quantity,
-      "probe: displacement [m] of a place that rides along with the material; "
-      "reaction: force [N] and moment [Nm] of a boundary on the material; "
-      "impulse: the force's integral over time [Ns]; displacement, velocity, "
-      "stress error: of the material points against exact values; path: way "
-      "[m] of the centre of mass along a direction and the body's angle [rad]; "
-      "penetration: largest depth of points behind a boundary, in cell sizes; "
-      "run-out: furthest coordinate [m] in a direction, of all and of 99 % of "
-      "the mass; slope: of the surface along a direction [degrees], as where "
-      "sand rests; energy: kinetic, strain, and their sum [J]; newton: "
-      "iterations and order of convergence.",
-      Patterns::Selection(names_of_quantities()));
+    prm.add_parameter("Quantity",
+                      quantity,
+                      join("; ",
+                           [](const Quantity &row) {
+                             return row.name + ": " + row.help;
+                           }) +
+                        ".",
+                      Patterns::Selection(join("|", [](const Quantity &row) {
+                        return row.name;
+                      })));
     declare_object(file);
     declare_field(file);
     prm.add_parameter("Until",
@@ -107,7 +77,7 @@ namespace Impoint
                       "Body whose points are looked at; empty: all.");
     prm.add_parameter("Boundary",
                       boundary,
-                      "Reaction, impulse, penetration: name of the boundary.");
+                      users_of("Boundary") + ": name of the boundary.");
     prm.add_parameter("Point",
                       point,
                       "Probe: place at the start [m]; reaction: point about "
@@ -116,21 +86,24 @@ namespace Impoint
                       numbers);
     prm.add_parameter("Direction",
                       direction,
-                      "Path, run-out, slope: direction, of any length.",
+                      users_of("Direction") + ": direction, of any length.",
                       numbers);
     prm.add_parameter("Axis",
                       axis,
-                      "Path, slope in 3D: axis of the angle; empty: z.",
+                      users_of("Axis") + " in 3D: axis of the angle; empty: z.",
                       numbers);
     prm.declare_entry(
       "Reference",
       "",
       Patterns::Anything(),
-      "What the results should be, in their order (probe: u_x; u_y; u_z. "
-      "reaction: F_x; F_y; F_z; M_x; M_y; M_z, in 2D F_x; F_y; M_z. impulse: I_x; I_y; I_z. path: "
-      "path; angle. run-out: furthest; 99 %. slope: the angle. energy: kinetic; strain; total): "
-      "expressions of t separated by ';', in the results' units; 'none' or "
-      "nothing: no reference.");
+      "What the results should be, in their order (" +
+        join(". ",
+             [](const Quantity &row) {
+               return row.reference.empty() ? "" :
+                                              row.name + ": " + row.reference;
+             }) +
+        "): expressions of t separated by ';', in the results' units; 'none' "
+        "or nothing: no reference.");
   }
 
 
@@ -186,8 +159,11 @@ namespace Impoint
     check_unused(file);
     check_members(file);
     check_places(file, dim);
-    if (is_one_of("Exact", used_entries.at(quantity)))
-      check_field(file, dim);
+    const Quantity &chosen = Measurements::quantity(quantity);
+    if (dim == 2)
+      chosen.functions<2>().check(file, *this);
+    else
+      chosen.functions<3>().check(file, *this);
   }
 
 
@@ -198,12 +174,12 @@ namespace Impoint
     ParameterFile         untouched;
     MeasurementParameters defaults;
     defaults.declare(untouched, name);
-    for (const auto &[other, entries] : used_entries)
-      for (const auto &entry : entries)
+    const Quantity &chosen = Measurements::quantity(quantity);
+    for (const Quantity &other : Measurements::quantities())
+      for (const auto &entry : other.entries)
         {
           const std::string path = section + "/" + entry;
-          if (!is_one_of(entry, used_entries.at(quantity)) &&
-              file.value(path) != untouched.value(path))
+          if (!chosen.uses(entry) && file.value(path) != untouched.value(path))
             throw file.error(path,
                              "'" + entry + "' means nothing to the quantity '" +
                                quantity + "'",
@@ -217,8 +193,8 @@ namespace Impoint
   {
     const auto require = [&](const std::string &entry,
                              const std::string &value,
-                             const EntryNames  &names) {
-      if (!is_one_of(value, names))
+                             const Names       &names) {
+      if (std::count(names.begin(), names.end(), value) == 0)
         throw file.error(section + "/" + entry,
                          "the scene has no " +
                            std::string(entry == "Body" ? "body" : "boundary") +
@@ -229,12 +205,7 @@ namespace Impoint
     };
     if (!body.empty())
       require("Body", body, file.names("Bodies/Names"));
-    if (quantity == "probe" && name == "centre")
-      throw file.error("Measurements/Names",
-                       "the probe 'centre' has the name of the centre of mass",
-                       "Give it another one: history.csv has columns 'centre "
-                       "x' already.");
-    if (!is_one_of("Boundary", used_entries.at(quantity)))
+    if (!Measurements::quantity(quantity).uses("Boundary"))
       return;
     if (boundary.empty())
       throw file.error(section + "/Boundary",
@@ -242,18 +213,17 @@ namespace Impoint
                        "Set 'Boundary' to one of 'Names' in section "
                        "'Boundaries'.");
     require("Boundary", boundary, file.names("Boundaries/Names"));
-    if (quantity == "reaction" &&
-        is_one_of(name, file.names("Boundaries/Names")))
-      throw file.error("Measurements/Names",
-                       "the reaction '" + name + "' has a boundary's name",
-                       "Give it another one: history.csv has columns '" + name +
-                         " F_x' of the boundary already.");
-    if (quantity == "penetration" &&
-        file.value("Boundaries/" + boundary + "/Kind") == "conforming")
+  }
+
+
+
+  void MeasurementParameters::require_boundary_particles(
+    const ParameterFile &file) const
+  {
+    if (file.value("Boundaries/" + boundary + "/Kind") == "conforming")
       throw file.error(section + "/Boundary",
                        "'" + boundary +
-                         "' is conforming, which no point can "
-                         "cross",
+                         "' is conforming and has no boundary particles",
                        "Name a nonconforming boundary.");
   }
 
@@ -274,10 +244,10 @@ namespace Impoint
                          "Give " + std::to_string(dim) +
                            " numbers, separated by commas.");
     };
-    const bool has_direction =
-      is_one_of("Direction", used_entries.at(quantity));
-    check_size("Point", point, quantity == "probe");
-    check_size("Direction", direction, has_direction);
+    check_size("Point", point, false);
+    check_size("Direction",
+               direction,
+               Measurements::quantity(quantity).uses("Direction"));
     if (dim == 2 && !axis.empty())
       throw file.error(section + "/Axis",
                        "an axis is set in 2D",
@@ -296,31 +266,5 @@ namespace Impoint
     };
     check_length("Direction", direction);
     check_length("Axis", axis);
-    if (dim == 3 && quantity == "slope" &&
-        cross_product_3d(Measurements::to_vector<3>(direction),
-                         axis.empty() ? Tensor<1, 3>({0, 0, 1}) :
-                                        Measurements::to_vector<3>(axis))
-            .norm() == 0)
-      throw file.error(section + "/Axis",
-                       "the direction of a slope is along its axis",
-                       "Give the horizontal axis across the direction.");
-  }
-
-
-
-  void MeasurementParameters::check_field(const ParameterFile &file,
-                                          const unsigned int   dim) const
-  {
-    if (file.value(section + "/Exact").empty())
-      throw file.error(section + "/Exact",
-                       "an error needs exact values",
-                       "Set expressions of x, y(, z), t separated by ';'.");
-    const auto components = Measurements::field_components(quantity, dim);
-    if (component != "norm" && component != "all" &&
-        !is_one_of(component, components))
-      throw file.error(section + "/Component",
-                       "'" + component + "' is no component of the field",
-                       "Set norm, all, or one of " +
-                         Words::join(components, ", ") + ".");
   }
 } // namespace Impoint

@@ -1,3 +1,4 @@
+#include <impoint/base/parameter_file.h>
 #include <impoint/measurements/penetration.h>
 
 #include <deal.II/base/mpi.h>
@@ -54,6 +55,15 @@ namespace Impoint
       , boundary(parameters.boundary)
       , body(body_number(file, parameters))
     {}
+
+
+
+    template <int dim>
+    void Penetration<dim>::check(const ParameterFile         &file,
+                                 const MeasurementParameters &parameters)
+    {
+      parameters.require_boundary_particles(file);
+    }
 
 
 

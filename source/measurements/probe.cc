@@ -73,6 +73,24 @@ namespace Impoint
 
 
     template <int dim>
+    void Probe<dim>::check(const ParameterFile         &file,
+                           const MeasurementParameters &parameters)
+    {
+      if (parameters.point.empty())
+        throw file.error(parameters.section + "/Point",
+                         "the probe '" + parameters.name + "' has no place",
+                         "Give " + std::to_string(dim) +
+                           " numbers, separated by commas.");
+      if (parameters.name == "centre")
+        throw file.error(
+          "Measurements/Names",
+          "the probe 'centre' has the name of the centre of mass",
+          "Give it another one: history.csv has columns 'centre x' already.");
+    }
+
+
+
+    template <int dim>
     std::vector<typename Probe<dim>::Candidate> Probe<dim>::candidates(
       const State<dim>                                 &state,
       const LinearAlgebra::distributed::Vector<double> *u) const

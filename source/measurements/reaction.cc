@@ -1,5 +1,8 @@
+#include <impoint/base/parameter_file.h>
 #include <impoint/measurements/reaction.h>
 #include <impoint/measurements/totals.h>
+
+#include <algorithm>
 
 namespace Impoint
 {
@@ -29,6 +32,21 @@ namespace Impoint
       , boundary(parameters.boundary)
       , centre(to_vector<dim>(parameters.point))
     {}
+
+
+
+    template <int dim>
+    void Reaction<dim>::check(const ParameterFile         &file,
+                              const MeasurementParameters &parameters)
+    {
+      const auto boundaries = file.names("Boundaries/Names");
+      if (std::count(boundaries.begin(), boundaries.end(), parameters.name) > 0)
+        throw file.error("Measurements/Names",
+                         "the reaction '" + parameters.name +
+                           "' has a boundary's name",
+                         "Give it another one: history.csv has columns '" +
+                           parameters.name + " F_x' of the boundary already.");
+    }
 
 
 

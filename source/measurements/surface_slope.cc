@@ -1,3 +1,4 @@
+#include <impoint/base/parameter_file.h>
 #include <impoint/measurements/surface_slope.h>
 
 #include <deal.II/base/mpi.h>
@@ -33,6 +34,15 @@ namespace Impoint
             }
         return xx > 0 ? std::atan(xy / xx) * 180 / numbers::PI : 0.;
       }
+
+
+
+      /** The axis of the angle in 3D. */
+      Tensor<1, 3> horizontal_axis(const MeasurementParameters &parameters)
+      {
+        return parameters.axis.empty() ? Tensor<1, 3>({0, 0, 1}) :
+                                         to_vector<3>(parameters.axis);
+      }
     } // namespace
 
 
@@ -52,12 +62,24 @@ namespace Impoint
         }
       else
         {
-          const Tensor<1, 3> axis = parameters.axis.empty() ?
-                                      Tensor<1, 3>({0, 0, 1}) :
-                                      to_vector<3>(parameters.axis);
-          up                      = cross_product_3d(axis, direction);
+          up = cross_product_3d(horizontal_axis(parameters), direction);
           up /= up.norm();
         }
+    }
+
+
+
+    template <int dim>
+    void SurfaceSlope<dim>::check(const ParameterFile         &file,
+                                  const MeasurementParameters &parameters)
+    {
+      if constexpr (dim == 3)
+        if (cross_product_3d(to_vector<3>(parameters.direction),
+                             horizontal_axis(parameters))
+              .norm() == 0)
+          throw file.error(parameters.section + "/Axis",
+                           "the direction of a slope is along its axis",
+                           "Give the horizontal axis across the direction.");
     }
 
 

@@ -19,6 +19,18 @@ namespace Impoint
 
 
 
+    /** @p rule as in BoundaryParameters. */
+    Quadrature<1> segment_rule(const std::string &rule, const unsigned int n)
+    {
+      if (rule == "equal")
+        return QIterated<1>(QMidpoint<1>(), n);
+      AssertThrow(rule == "gauss" || rule == "cut",
+                  ExcMessage("No rule is called '" + rule + "'"));
+      return QGauss<1>(n);
+    }
+
+
+
     /** Rules to put particles on a segment (2D) or polygon (3D). */
     template <int dim>
     class FacetRule
@@ -30,8 +42,7 @@ namespace Impoint
       FacetRule(const std::string &name, const unsigned int n)
         : n(n)
         , cut(name == "cut")
-        , line(name != "equal" ? Quadrature<1>(QGauss<1>(n)) :
-                                 Quadrature<1>(QIterated<1>(QMidpoint<1>(), n)))
+        , line(segment_rule(name, n))
       {
         const bool gauss = name != "equal";
         if (dim == 3 && gauss)

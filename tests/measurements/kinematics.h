@@ -8,6 +8,7 @@
 #include <impoint/setup.h>
 
 #include <cmath>
+#include <functional>
 #include <iostream>
 
 using namespace Impoint;
@@ -93,6 +94,9 @@ public:
     for (const auto &measurement : measurements)
       measurement->follow(state(), u);
     move(A);
+    if (set_boundary)
+      for (const auto &method : methods)
+        set_boundary(method->particles());
     for (const auto &measurement : measurements)
       measurement->end_step(state());
   }
@@ -109,6 +113,9 @@ public:
   std::vector<double>                           residuals;
   VoigtVector<dim>                              stress    = {}; // Kirchhoff
   double                                        stress_zz = 0;
+
+  // what a step leaves in the slots of boundary particles; nobody else does
+  std::function<void(BoundaryParticles<dim> &)> set_boundary;
 
 private:
   Measurements::State<dim> state() const
@@ -154,5 +161,39 @@ private:
   double                                                       time = 0;
   std::vector<std::unique_ptr<Measurements::Measurement<dim>>> measurements;
 };
+
+inline bool on_first_rank()
+{
+  return Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+}
+
+// Whether all results are their references, or zero.
+template <int dim>
+void compare(const std::string &title, const Kinematics<dim> &scene)
+{
+  if (!on_first_rank())
+    return;
+  std::cout << title << ": " << scene.results().size()
+            << " results, errors below bound: ";
+  std::string wrong;
+  for (auto result : scene.results())
+    {
+      if (std::isnan(result.reference))
+        result.reference = 0;
+      if (!(result.error() < 1e-11))
+        wrong += " " + result.name + " " + std::to_string(result.error());
+    }
+  std::cout << (wrong.empty() ? "yes" : "no:" + wrong) << std::endl;
+}
+
+template <int dim>
+void print(const Kinematics<dim> &scene, const std::string &title = "")
+{
+  if (on_first_rank())
+    for (const auto &result : scene.results())
+      std::cout << title << result.name << " "
+                << (std::abs(result.value) < 1e-12 ? 0. : result.value)
+                << std::endl;
+}
 
 #endif

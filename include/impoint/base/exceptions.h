@@ -28,9 +28,11 @@ namespace Impoint
   };
 
   /**
-   * A step that cannot be completed (Newton stalls, det F <= 0, a point leaves
-   * the grid). Caught in exactly one place, which restores the state at the
-   * start of the step and halves it.
+   * A step that cannot be completed (Newton stalls, det F <= 0, a point moves
+   * by more than a cell out of the grid). Simulation halves the step, of which
+   * nothing is stored yet. On the way up it is caught to end on all ranks
+   * alike (on_all_ranks(), Assembly), and where less can be tried first: a
+   * shorter correction (Newton), another solver or matrix.
    */
   class StepFailed : public std::runtime_error
   {

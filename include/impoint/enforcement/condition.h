@@ -31,17 +31,13 @@ namespace Impoint
       return middle >= from && middle < until;
     }
 
-    bool has_multipliers() const
-    {
-      return enforcement == "lagrange multiplier" ||
-             enforcement == "augmented Lagrangian";
-    }
+    bool has_multipliers() const;
 
     /** Whether the particles carry the state of the material. */
-    bool carries_material() const
-    {
-      return constraint != "traction" && enforcement == "nitsche";
-    }
+    bool carries_material() const;
+
+    /** Whether it is the same with the opposite normal. */
+    bool is_two_sided() const;
 
     std::string name, section;
 

@@ -36,7 +36,7 @@ namespace Impoint
 
     /**
      * One nonconforming boundary and how its condition is imposed. A new
-     * method is one file and one line in create().
+     * method is a header, a source and a row in kinds.cc.
      *
      * All methods contribute cell by cell, on the cells of their particles, or
      * on links, which reach beyond a cell (see ActiveNodes).
@@ -144,6 +144,14 @@ namespace Impoint
        * own; none without them. */
       virtual std::vector<double> multipliers() const;
       virtual void set_multipliers(const std::vector<double> &values);
+
+      // Contact within Newton's method. begin_correction() remembers what
+      // touches and slides where a correction starts; after it
+      // contact_changed() tells whether that is otherwise now, so that the
+      // correction isn't shortened though residuals grow. The step has
+      // converged only if contact_settled(). Where contacts come and go for
+      // half of all iterations, freeze(true) keeps what touches touching; what
+      // converges so must be a solution after freeze(false), too.
 
       /** The last add() was at the place that a correction starts from. */
       virtual void begin_correction();

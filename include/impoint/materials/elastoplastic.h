@@ -90,7 +90,7 @@ namespace Impoint
       double energy(const Deformation<dim> &deformation,
                     const Response<dim>    &response) const override;
 
-    private:
+    protected:
       static constexpr int n_elastic = Voigt<dim>::n + (dim == 2 ? 1 : 0);
 
       /** Logarithmic strains of the trial state. */

@@ -26,7 +26,7 @@ namespace Impoint
        */
       VoigtVector<dim> stress = {};
 
-      /** Out-of-plane stress in plane strain; unused in 3D. */
+      /** Out-of-plane stress in plane strain, which respond() sets in 2D. */
       double stress_zz = 0;
 
       /** Spatial tangent c: Lie derivative of stress = c : sym grad v
@@ -55,8 +55,8 @@ namespace Impoint
     constexpr unsigned int max_history = 64;
 
     /**
-     * A constitutive model. A new one is one file and one line in
-     * create_material().
+     * A constitutive model. A new one is a header, a source and a row in
+     * models.cc.
      */
     template <int dim>
     class Material
@@ -85,7 +85,8 @@ namespace Impoint
       }
 
       /** Whether respond() starts from the stress of the step before (rate form
-       * or history), so that an initial stress is part of its answer. */
+       * or history), so that an initial stress is part of its answer. Else
+       * MaterialPoints adds it. */
       virtual bool starts_from_stress() const
       {
         return false;
@@ -120,15 +121,18 @@ namespace Impoint
                            const bool              tangent_wanted,
                            Response<dim>          &response) const = 0;
 
-      /** Tangent of the virgin material at rest, before it yields. */
+      /** Tangent of the virgin material at rest, before it yields. By default
+       * that of respond() without deformation, from initialise() without
+       * stress: a model that yields there overrides it. */
       virtual VoigtMatrix<dim> elastic_tangent() const;
 
       /** Young's modulus of the virgin material [Pa]: the scale of penalties.
        */
       virtual double young() const = 0;
 
-      /** Strain energy of a point per initial volume, for the energy balance;
-       * NaN where the model has none. */
+      /** Strain energy of a point per initial volume, for the energy balance:
+       * the elastic part, which follows from deformation and stress. NaN where
+       * the model has none. */
       virtual double energy(const Deformation<dim> &deformation,
                             const Response<dim>    &response) const = 0;
     };

@@ -19,7 +19,8 @@ namespace Impoint
     class Convergence : public Measurement<dim>
     {
     public:
-      explicit Convergence(const MeasurementParameters &parameters);
+      Convergence(const ParameterFile         &file,
+                  const MeasurementParameters &parameters);
 
       void end_step(const State<dim> &state) override;
       void columns(HistoryRow &row) const override;

@@ -27,6 +27,9 @@ namespace Impoint
       FieldError(const ParameterFile         &file,
                  const MeasurementParameters &parameters);
 
+      static void check(const ParameterFile         &file,
+                        const MeasurementParameters &parameters);
+
       /** Throws InputError if the velocity is wanted of points without. */
       void start(const State<dim> &state) override;
       void end_step(const State<dim> &state) override;

@@ -44,15 +44,22 @@ namespace Impoint
     };
 
     /**
-     * One quantity that a scene measures. A new one is one file and one line in
-     * create(). Everything is collective, and all ranks get the same numbers,
-     * whatever their number.
+     * One quantity that a scene measures. A new one is a header, a source and a
+     * row in quantities.cc. Everything is collective, and all ranks get the
+     * same numbers, whatever their number.
      */
     template <int dim>
     class Measurement
     {
     public:
       virtual ~Measurement() = default;
+
+      /** Throws InputError where entries that all measurements have make no
+       * sense for this one; hidden by those that ask for more. Seen by --check,
+       * before anything is set up. */
+      static void check(const ParameterFile & /*file*/,
+                        const MeasurementParameters & /*parameters*/)
+      {}
 
       /** Before the first step: points are placed, no nodes are active yet. */
       virtual void start(const State<dim> & /*state*/)

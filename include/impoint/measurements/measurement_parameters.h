@@ -19,6 +19,9 @@ namespace Impoint
      * and boundaries that the scene does not have. */
     void check(const ParameterFile &file, const unsigned int dim) const;
 
+    /** Throws InputError if 'Boundary' is conforming and so has none. */
+    void require_boundary_particles(const ParameterFile &file) const;
+
     std::string name;    // "tip"
     std::string section; // "Measurements/tip"
 
@@ -45,16 +48,7 @@ namespace Impoint
     void check_unused(const ParameterFile &file) const;
     void check_members(const ParameterFile &file) const;
     void check_places(const ParameterFile &file, const unsigned int dim) const;
-    void check_field(const ParameterFile &file, const unsigned int dim) const;
   };
-
-  namespace Measurements
-  {
-    /** Names of a field's components in the order in which expressions give
-     * them: x, y(, z), or those of base/voigt.h, followed by zz in 2D. */
-    std::vector<std::string> field_components(const std::string &quantity,
-                                              const unsigned int dim);
-  } // namespace Measurements
 } // namespace Impoint
 
 #endif

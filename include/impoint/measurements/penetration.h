@@ -23,6 +23,9 @@ namespace Impoint
       Penetration(const ParameterFile         &file,
                   const MeasurementParameters &parameters);
 
+      static void check(const ParameterFile         &file,
+                        const MeasurementParameters &parameters);
+
       void end_step(const State<dim> &state) override;
       void results(std::vector<Result> &results) const override;
       void save_or_load(StateArchive &archive) override;

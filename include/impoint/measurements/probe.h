@@ -24,6 +24,9 @@ namespace Impoint
     public:
       Probe(const ParameterFile &file, const MeasurementParameters &parameters);
 
+      static void check(const ParameterFile         &file,
+                        const MeasurementParameters &parameters);
+
       /** Throws InputError if there is no material at the place. */
       void start(const State<dim> &state) override;
 

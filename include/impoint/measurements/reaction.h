@@ -20,6 +20,9 @@ namespace Impoint
       Reaction(const ParameterFile         &file,
                const MeasurementParameters &parameters);
 
+      static void check(const ParameterFile         &file,
+                        const MeasurementParameters &parameters);
+
       void end_step(const State<dim> &state) override;
 
     private:

@@ -22,6 +22,9 @@ namespace Impoint
       SurfaceSlope(const ParameterFile         &file,
                    const MeasurementParameters &parameters);
 
+      static void check(const ParameterFile         &file,
+                        const MeasurementParameters &parameters);
+
       void start(const State<dim> &state) override;
       void end_step(const State<dim> &state) override;
 

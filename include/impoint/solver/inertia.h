@@ -3,6 +3,7 @@
 
 #include <impoint/grid/active_nodes.h>
 #include <impoint/particles/material_points.h>
+#include <impoint/solver/time_parameters.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 
@@ -10,48 +11,6 @@
 
 namespace Impoint
 {
-  class ParameterFile;
-
-  /** How time is discretised. */
-  struct TimeParameters
-  {
-    void declare(ParameterFile &file);
-    void check(const ParameterFile &file) const;
-
-    std::string kind            = "quasi-static"; // quasi-static|dynamic
-    double      end             = 1;
-    double      step            = 1;
-    double      smallest        = 1e-3; // of the given step
-    double      beta            = 0.25;
-    double      gamma           = 0.5;
-    double      dynamic_from    = 0; // [s]; load steps until then
-    double      spectral_radius = 1; // of the highest frequencies, a step
-    double      filter          = 0; // of unseen velocities [s]; 0: none
-    double      filter_at_rest  = 0; // instead, near rest [s]; 0: the same
-    std::string mass            = "lumped";      // lumped|consistent
-    std::string projection      = "lumped";      // lumped|consistent
-    std::string initial         = "equilibrium"; // equilibrium|zero|expression
-    bool        is_dynamic() const
-    {
-      return kind == "dynamic";
-    }
-    /** Whether no step follows @p time, but for round-off. */
-    bool is_over(const double time) const
-    {
-      return time >= end - 1e-9 * step;
-    }
-    /** Whether a step that begins at @p start is a load step before motion. */
-    bool rests_after(const double start) const
-    {
-      return is_dynamic() && start < dynamic_from - 1e-9 * step;
-    }
-    /** Whether it has inertia. */
-    bool moves_after(const double start) const
-    {
-      return is_dynamic() && !rests_after(start);
-    }
-  };
-
   /**
    * Mass, velocity and acceleration on the active nodes (P Eqs. 17-21) and
    * Newmark's relation between a step's displacements and accelerations, in

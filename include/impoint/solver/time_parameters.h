@@ -1,0 +1,51 @@
+#ifndef impoint_solver_time_parameters_h
+#define impoint_solver_time_parameters_h
+
+#include <string>
+
+namespace Impoint
+{
+  class ParameterFile;
+
+  /** How time is discretised. */
+  struct TimeParameters
+  {
+    void declare(ParameterFile &file);
+    void check(const ParameterFile &file) const;
+
+    std::string kind            = "quasi-static"; // quasi-static|dynamic
+    double      end             = 1;
+    double      step            = 1;
+    double      smallest        = 1e-3; // of the given step
+    double      beta            = 0.25;
+    double      gamma           = 0.5;
+    double      dynamic_from    = 0; // [s]; load steps until then
+    double      spectral_radius = 1; // of the highest frequencies, a step
+    double      filter          = 0; // of unseen velocities [s]; 0: none
+    double      filter_at_rest  = 0; // instead, near rest [s]; 0: the same
+    std::string mass            = "lumped";      // lumped|consistent
+    std::string projection      = "lumped";      // lumped|consistent
+    std::string initial         = "equilibrium"; // equilibrium|zero|expression
+    bool        is_dynamic() const
+    {
+      return kind == "dynamic";
+    }
+    /** Whether no step follows @p time, but for round-off. */
+    bool is_over(const double time) const
+    {
+      return time >= end - 1e-9 * step;
+    }
+    /** Whether a step that begins at @p start is a load step before motion. */
+    bool rests_after(const double start) const
+    {
+      return is_dynamic() && start < dynamic_from - 1e-9 * step;
+    }
+    /** Whether it has inertia. */
+    bool moves_after(const double start) const
+    {
+      return is_dynamic() && !rests_after(start);
+    }
+  };
+} // namespace Impoint
+
+#endif
