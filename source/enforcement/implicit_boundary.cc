@@ -30,11 +30,11 @@ namespace Impoint
 
 
     template <int dim>
-    double ImplicitBoundary<dim>::inverse_width(const unsigned int r) const
+    double ImplicitBoundary<dim>::band_width(const unsigned int r) const
     {
       const auto &grid = this->current.active->basis().grid();
-      return 4. / (3. * this->condition.band_width *
-                   grid.size(this->boundary->ranges()[r].cell));
+      return this->condition.band_width *
+             grid.size(this->boundary->ranges()[r].cell);
     }
 
 
@@ -70,7 +70,7 @@ namespace Impoint
            b < this->boundary->ranges()[r].end;
            ++b)
         area += this->boundary->area(b);
-      state.filled  = std::min(1., volume * 0.75 * inverse_width(r) / area);
+      state.filled  = std::min(1., volume / (band_width(r) * area));
       state.tangent = points.material(range.begin).elastic_tangent();
       return state;
     }
@@ -202,7 +202,7 @@ namespace Impoint
                         held * this->boundary->vector(b, slots.increment);
       patch.start_traction =
         -0.5 * state.filled * (held * (state.stress * outward));
-      patch.stiffness = inverse_width(r) * held *
+      patch.stiffness = 4. / (3. * band_width(r)) * held *
                         acoustic_tensor(outward, state.tangent, outward) *
                         transpose(held);
       const double *N         = this->boundary->support(b);

@@ -4,6 +4,7 @@
 #include <impoint/materials/elastoplastic.h>
 #include <impoint/materials/hencky.h>
 #include <impoint/materials/linear_elastic.h>
+#include <impoint/materials/models.h>
 #include <impoint/materials/neo_hookean.h>
 #include <impoint/materials/st_venant_kirchhoff.h>
 
@@ -55,8 +56,37 @@ void refuse(const std::vector<std::string> &overrides)
     }
 }
 
+// the tables know each other's names, and no others
+void check_tables()
+{
+  std::string unknown;
+  for (const Model &row : models())
+    for (const std::string &name : row.entries)
+      {
+        bool found = false;
+        for (const ModelEntry &entry : model_entries())
+          found |= entry.name == name;
+        if (!found)
+          unknown += " " + name;
+      }
+  for (const ModelEntry &entry : model_entries())
+    if (entry.models().empty())
+      unknown += " " + entry.name;
+  std::cout << "entries without a row or model:" << unknown << '\n';
+  try
+    {
+      model("rubber");
+      std::cout << "a model nobody wrote is " << model("rubber").name << '\n';
+    }
+  catch (const ExceptionBase &)
+    {
+      std::cout << "a model nobody wrote is refused\n";
+    }
+}
+
 int main()
 {
+  check_tables();
   check<LinearElastic>("linear elastic");
   check<StVenantKirchhoff>("St. Venant-Kirchhoff");
   check<NeoHookean>("neo-Hookean");

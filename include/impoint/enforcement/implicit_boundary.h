@@ -72,7 +72,7 @@ namespace Impoint
       };
 
       CellState cell_state(const unsigned int r) const;
-      double    inverse_width(const unsigned int r) const; // 4 / (3 delta)
+      double    band_width(const unsigned int r) const; // delta [m]
       bool      bears_each_particle(const unsigned int      r,
                                     const ActiveNodes<dim> &active) const;
       bool      holds_each_particle(const unsigned int r) const;
