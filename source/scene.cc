@@ -45,6 +45,10 @@ namespace Impoint
   {
     declare_entries(file);
     file.apply();
+    for (auto &body : bodies)
+      body.complete(grid.degree());
+    for (auto &boundary : boundaries)
+      boundary.complete(grid.degree());
     check(file);
   }
 
@@ -245,6 +249,49 @@ namespace Impoint
                        "nothing holds the bodies of a quasi-static scene",
                        "Add a boundary that is fixed, a roller or slip, or set "
                        "Kind = dynamic in section 'Time'.");
+  }
+
+  /** Numbers of the user's that are too small for the basis: functions are
+   * free between the places where particles see them. */
+  template <int dim>
+  std::vector<std::string> Scene<dim>::doubts() const
+  {
+    std::vector<std::string> doubts;
+    const unsigned int       wanted = grid.degree() + 1;
+    const auto               doubt  = [&](const std::string &what,
+                           const std::string &entry,
+                           const unsigned int number,
+                           const unsigned int least) {
+      if (grid.degree() > 1 && number < least)
+        doubts.push_back(what + " has '" + entry + " = " +
+                         std::to_string(number) + "', few for a basis '" +
+                         grid.basis + "'. Set " + std::to_string(wanted) +
+                         ", or take the entry away.");
+    };
+    for (const auto &body : bodies)
+      if (body.points == "clipped")
+        doubt("Body '" + body.name + "'",
+              "Points per direction",
+              body.rule,
+              grid.basis == "quadratic" ? wanted : grid.degree());
+    for (const auto &boundary : boundaries)
+      if (boundary.kind == "nonconforming" && boundary.rule == "cut")
+        doubt("Boundary '" + boundary.name + "'",
+              "Particles per segment",
+              boundary.particles_per_segment,
+              wanted);
+    for (const auto &[entry, value] :
+         {std::pair<std::string, std::string>("Mass", time.mass),
+          {"Projection", time.projection}})
+      if (value == "consistent" && !grid.is_kept())
+        doubts.push_back(
+          "'" + entry +
+          " = consistent' on a grid that is reset: where points "
+          "leave the cells they were placed in, this mass is no "
+          "longer positive for some motions, and steps may fail. "
+          "Set '" +
+          entry + " = lumped', or 'Reset = never' in section 'Grid'.");
+    return doubts;
   }
 
   template struct Scene<2>;

@@ -284,13 +284,20 @@ namespace Impoint
     // Areas are those of the thickness that the bodies have.
     const double thickness = dim == 2 ? scene.bodies.front().thickness : 1.;
     for (unsigned int i = 0; i < scene.boundaries.size(); ++i)
-      if (scene.boundaries[i].kind == "nonconforming")
+      if (scene.has_particles(i))
         {
           CarriedByBoundary carried;
           carried.keeps_grid     = points.carried().keeps_grid;
           carried.material       = scene.conditions[i].carries_material();
           carried.initial_stress = points.carried().initial_stress;
           carried.n_history      = points.carried().n_history;
+          if (carried.material && carried.n_history > 0 &&
+              scene.conditions[i].nitsche_form == "symmetric")
+            throw file.error(
+              scene.boundaries[i].section + "/Nitsche form",
+              "the symmetric form of Nitsche's method holds a plastic "
+              "material: its forces jump where the material yields",
+              "Set Nitsche form = incomplete, or take the entry away.");
           methods.push_back(Enforcement::create<dim>(
             file,
             scene.conditions[i],

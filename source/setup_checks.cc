@@ -204,6 +204,8 @@ namespace Impoint
       file, parameters, condition, judge_normals(particles, points, grid));
     if (!normals.empty())
       doubts.push_back(normals);
+    if (parameters.kind == "conforming")
+      return doubts;
 
     // Below this a boundary merely ends on the grid's own border.
     constexpr double smallest_share = 1e-6;

@@ -85,11 +85,12 @@ namespace Impoint
   template <int dim>
   void Simulation<dim>::check_boundaries()
   {
+    if (!resumed)
+      for (const auto &doubt : scene.doubts())
+        terminal.warning(doubt);
     for (unsigned int i = 0, m = 0; i < scene.boundaries.size(); ++i)
-      if (scene.boundaries[i].kind == "conforming")
-        conforming.add_boundary(file,
-                                scene.conditions[i],
-                                scene.boundaries[i].boundary_id);
+      if (!scene.has_particles(i))
+        conforming.add_boundary(file, scene.conditions[i], scene.boundaries[i]);
       else if (!resumed)
         for (const auto &doubt :
              doubts_about_boundary(file,

@@ -79,13 +79,13 @@ namespace Impoint
       run_record.boundary_particles += method->particles().n_global();
     run_record.boundaries.clear();
     for (unsigned int i = 0; i < scene.boundaries.size(); ++i)
-      run_record.boundaries.emplace_back(
-        scene.boundaries[i].name,
-        scene.boundaries[i].kind == "conforming" ?
-          "conforming" :
-          (scene.conditions[i].constraint == "traction" ?
-             "traction" :
-             scene.conditions[i].enforcement));
+      run_record.boundaries.emplace_back(scene.boundaries[i].name,
+                                         !scene.has_particles(i) ?
+                                           "conforming" :
+                                           (scene.conditions[i].constraint ==
+                                                "traction" ?
+                                              "traction" :
+                                              scene.conditions[i].enforcement));
     run_record.solver      = system->solver_description();
     run_record.counters    = counters;
     run_record.seconds     = seconds;
@@ -289,11 +289,11 @@ namespace Impoint
       nonconforming_forces(*system, methods, active, u);
     unsigned int next_held = 0, next_nonconforming = 0;
     forces.clear();
-    for (const auto &boundary : scene.boundaries)
+    for (unsigned int i = 0; i < scene.boundaries.size(); ++i)
       {
-        forces.push_back(boundary.kind == "conforming" ?
-                           held[next_held++] :
-                           nonconforming[next_nonconforming++]);
+        forces.push_back(scene.has_particles(i) ?
+                           nonconforming[next_nonconforming++] :
+                           held[next_held++]);
         forces.back().force  = Utilities::MPI::sum(forces.back().force, comm);
         forces.back().moment = Utilities::MPI::sum(forces.back().moment, comm);
       }

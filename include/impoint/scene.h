@@ -42,6 +42,17 @@ namespace Impoint
     /** Declares every entry of the scenes that @p file may be. */
     static void declare(ParameterFile &file);
 
+    /** Whether boundary @p i acts by particles: not on sides of the grid that
+     * it holds. */
+    bool has_particles(const unsigned int i) const
+    {
+      return boundaries[i].kind == "nonconforming" ||
+             conditions[i].constraint == "traction";
+    }
+
+    /** What is allowed but doubtful, for a person to judge. */
+    std::vector<std::string> doubts() const;
+
     std::string            title;
     GridParameters         grid;
     TimeParameters         time;

@@ -133,8 +133,12 @@ namespace Impoint
                       nitsche_form,
                       "symmetric: the forces have a potential; non-symmetric: "
                       "bears any factor, but is less accurate and needs an "
-                      "unsymmetric solver.",
-                      Patterns::Selection("symmetric|non-symmetric"));
+                      "unsymmetric solver; incomplete: without the terms that "
+                      "weigh the gap by the material's tangent, which jumps "
+                      "where material yields. automatic: incomplete if a "
+                      "material is plastic, else symmetric.",
+                      Patterns::Selection(
+                        "automatic|symmetric|non-symmetric|incomplete"));
     prm.add_parameter(
       "Small-cut rule",
       small_cut_rule,
@@ -177,8 +181,8 @@ namespace Impoint
       motion,
       "How the particles move: with the value that they "
       "prescribe, with the material that they hold, or not; "
-      "automatic: a traction with the material, others with the "
-      "value.",
+      "automatic: a traction and a slip boundary by 'nitsche' with the "
+      "material, others with the value.",
       Patterns::Selection("automatic|with the value|with the material|not"));
     prm.declare_entry("Traction",
                       "",
@@ -214,11 +218,6 @@ namespace Impoint
       clash("Components",
             "a roller holds no component",
             "Set Components = x (or y, z).");
-    if (constraint == "traction" && conforming)
-      clash("Constraint",
-            "a traction acts on nonconforming boundaries only",
-            "Give the boundary a polyline or surface mesh along the grid's "
-            "boundary instead of a boundary id.");
     check_unused(file, conforming);
     if (enforcement == "implicit boundary" &&
         (superfluous == "remove" || superfluous == "stabilise"))

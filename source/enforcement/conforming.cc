@@ -19,12 +19,12 @@ namespace Impoint
     template <int dim>
     void Conforming<dim>::add_boundary(const ParameterFile       &file,
                                        const ConditionParameters &parameters,
-                                       const types::boundary_id   boundary_id)
+                                       const BoundaryParameters  &sides)
     {
       Boundary boundary{parameters,
                         PrescribedMotion<dim>(file, parameters),
                         {},
-                        basis.boundary_nodes(boundary_id)};
+                        basis.boundary_nodes(sides.boundary_id)};
       for (unsigned int d = 0; d < dim; ++d)
         boundary.components[d] =
           parameters.components.find("xyz"[d]) != std::string::npos;
@@ -34,18 +34,14 @@ namespace Impoint
                          "Use x, y, or both.");
       const unsigned int n_nodes = boundary.nodes.size();
       if (Utilities::MPI::max(n_nodes, basis.grid().communicator()) == 0)
-        throw file.error(parameters.section + "/Boundary id",
-                         "the grid's boundary has no part with id " +
-                           std::to_string(boundary_id),
-                         "Use an id that the grid's generator or file gives; "
-                         "rectangles and boxes have 0 to 2 dim - 1 (left, "
-                         "right, bottom, top, back, front).");
-      if (!basis.can_hold(boundary_id))
+        throw sides.no_such_side(file);
+      if (!basis.can_hold(sides.boundary_id))
         throw file.error(parameters.section + "/Boundary id",
                          "a '" + basis.name() +
                            "' basis holds only sides of the box around the "
                            "grid, and the part with id " +
-                           std::to_string(boundary_id) + " lies inside of it",
+                           std::to_string(sides.boundary_id) +
+                           " lies inside of it",
                          "Set 'Kind = nonconforming' and give the boundary a "
                          "shape, or set Basis = linear or quadratic in section "
                          "'Grid'.");

@@ -11,6 +11,19 @@ namespace Impoint
     {
       // What holds accelerations, as a penalty in units of n.C.n/h.
       constexpr double constraint_factor = 1e4;
+
+
+
+      /** Of the adjoint terms: 0, if they are left out. */
+      template <int dim>
+      double sign_of(const std::string            &form,
+                     const BoundaryParticles<dim> &particles)
+      {
+        if (form == "incomplete" ||
+            (form == "automatic" && particles.carried().n_history > 0))
+          return 0.;
+        return form == "non-symmetric" ? -1. : 1.;
+      }
     } // namespace
 
 
@@ -21,7 +34,7 @@ namespace Impoint
                           std::unique_ptr<BoundaryParticles<dim>> particles)
       : Method<dim>(parameters, std::move(motion), std::move(particles))
       , slip(parameters.constraint == "slip")
-      , sign(parameters.nitsche_form == "symmetric" ? 1. : -1.)
+      , sign(sign_of(parameters.nitsche_form, *this->boundary))
     {}
 
 

@@ -27,6 +27,7 @@ namespace Impoint
   Basis<dim>::Basis(const BackgroundGrid<dim> &grid)
     : background(grid)
     , kind("linear")
+    , of_degree(1)
   {
     make_functions();
   }
@@ -39,6 +40,7 @@ namespace Impoint
                     const GridParameters      &parameters)
     : background(grid)
     , kind(parameters.basis)
+    , of_degree(parameters.degree())
   {
     if (is_spline() && !grid.lattice().exists)
       throw file.error(parameters.section + "/Basis",

@@ -53,8 +53,9 @@ namespace Impoint
       rule,
       "Body mesh: Gauss points in a quadrilateral or hexahedron. "
       "Clipped: sub-cells of a grid cell that are clipped, or "
-      "Gauss points if 'Piece = gauss'.",
-      Patterns::Integer(1, 100));
+      "Gauss points if 'Piece = gauss'. 0: clipped, one more than the degree "
+      "of the basis; body mesh, 2.",
+      Patterns::Integer(0, 100));
     prm.add_parameter("Points per simplex",
                       points_per_simplex,
                       "Body mesh: points in a triangle (" +
@@ -153,6 +154,14 @@ namespace Impoint
                        "the body '" + name + "' has a signed distance and " +
                          (outline.empty() ? "a mesh" : "an outline"),
                        "Take one of them away.");
+  }
+
+
+
+  void BodyParameters::complete(const unsigned int degree)
+  {
+    if (rule == 0)
+      rule = points == "clipped" ? degree + 1 : 2;
   }
 
 
@@ -268,8 +277,9 @@ namespace Impoint
                       particles_per_segment,
                       "Number n of particles on a segment (3D: n by n on a "
                       "quadrilateral); with 'Rule = cut' on each piece: a "
-                      "basis of degree p wants n = p + 1.",
-                      Patterns::Integer(1, 1000));
+                      "basis of degree p wants n = p + 1. 0: with 'Rule = cut' "
+                      "this, else 2.",
+                      Patterns::Integer(0, 1000));
     prm.add_parameter("Rule",
                       rule,
                       "'equal': in the middle of n equal parts; 'gauss': at "
@@ -284,6 +294,27 @@ namespace Impoint
     prm.leave_subsection();
     prm.leave_subsection();
     mesh.declare(file, section + "/Mesh", "", "");
+  }
+
+
+
+  void BoundaryParameters::complete(const unsigned int degree)
+  {
+    if (particles_per_segment == 0)
+      particles_per_segment =
+        rule == "cut" || kind == "conforming" ? degree + 1 : 2;
+  }
+
+
+
+  InputError BoundaryParameters::no_such_side(const ParameterFile &file) const
+  {
+    return file.error(section + "/Boundary id",
+                      "the grid's boundary has no part with id " +
+                        std::to_string(boundary_id),
+                      "Use an id that the grid's generator or file gives; "
+                      "rectangles and boxes have 0 to 2 dim - 1 (left, right, "
+                      "bottom, top, back, front).");
   }
 
 

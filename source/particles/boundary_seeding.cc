@@ -173,11 +173,57 @@ namespace Impoint
                 mine.push_back(particle);
               }
           }
-      const auto  first = first_numbers(groups, grid.communicator());
-      std::size_t b     = 0;
-      for (unsigned int g = 0; g < groups.size(); ++g)
-        for (unsigned int i = 0; i < groups[g].n_particles; ++i, ++b)
-          mine[b].number = first[g] + i;
+      number_particles(groups, grid.communicator(), mine);
+      return mine;
+    }
+
+
+
+    /** Corners of a cell's face, whose normal points out of the cell. */
+    template <int dim>
+    Corners<dim> corners_of(const BackgroundGrid<dim> &grid,
+                            const unsigned int         c,
+                            const unsigned int         f)
+    {
+      const auto   cell = grid.cell(c);
+      const auto   face = cell->face(f);
+      Corners<dim> corners;
+      for (const unsigned int v : face->vertex_indices())
+        corners.push_back(face->vertex(v));
+      if (corners.size() == 4)
+        std::swap(corners[2], corners[3]); // of a face line by line
+      if (area_vector_of(corners) * (face->center() - cell->center()) < 0)
+        std::reverse(corners.begin(), corners.end());
+      return corners;
+    }
+
+
+
+    /** On the grid's sides with the boundary's id. */
+    template <int dim>
+    std::vector<SeededBoundaryParticle<dim>>
+    seed_sides(const types::boundary_id   id,
+               const FacetRule<dim>      &rule,
+               const BackgroundGrid<dim> &grid)
+    {
+      std::vector<SeededBoundaryParticle<dim>> mine;
+      std::vector<ParticleGroup>               groups;
+      for (unsigned int c = 0; c < grid.n_cells(); ++c)
+        if (grid.is_owned(c))
+          for (const unsigned int f : grid.cell(c)->face_indices())
+            if (grid.cell(c)->face(f)->at_boundary() &&
+                grid.cell(c)->face(f)->boundary_id() == id)
+              {
+                const auto particles = rule.particles(corners_of(grid, c, f));
+                groups.push_back(
+                  {f, grid.cell(c)->id(), unsigned(particles.size())});
+                for (auto particle : particles)
+                  {
+                    particle.cell = c;
+                    mine.push_back(particle);
+                  }
+              }
+      number_particles(groups, grid.communicator(), mine);
       return mine;
     }
 
@@ -249,11 +295,20 @@ namespace Impoint
                 const BoundaryParameters  &boundary,
                 const BackgroundGrid<dim> &grid)
   {
-    const auto           facets = make_facets<dim>(file, boundary);
-    const FacetRule<dim> rule(boundary.rule, boundary.particles_per_segment);
-    const auto           mine = boundary.rule == "cut" ?
-                                  seed_cut(flat_facets(facets), rule, grid) :
-                                  seed_uncut(facets, rule, grid);
+    const bool           sides = boundary.kind == "conforming";
+    const FacetRule<dim> rule(sides ? "gauss" : boundary.rule,
+                              boundary.particles_per_segment);
+    if (sides)
+      {
+        const auto mine = seed_sides(boundary.boundary_id, rule, grid);
+        if (Utilities::MPI::sum(mine.size(), grid.communicator()) == 0)
+          throw boundary.no_such_side(file);
+        return mine;
+      }
+    const auto facets = make_facets<dim>(file, boundary);
+    const auto mine   = boundary.rule == "cut" ?
+                          seed_cut(flat_facets(facets), rule, grid) :
+                          seed_uncut(facets, rule, grid);
     if (Utilities::MPI::sum(mine.size(), grid.communicator()) == 0)
       throw file.error(boundary.polyline.empty() ?
                          boundary.mesh.section + (boundary.mesh.file.empty() ?

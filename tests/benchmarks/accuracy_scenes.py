@@ -48,7 +48,7 @@ def way_settings(way, body, boundaries):
 
 def conforming(name):
     at = "Boundaries/%s/" % name
-    return [at + entry for entry in ("Kind = conforming", "Polyline =", "Rule = equal", "Particles per segment = 2",
+    return [at + entry for entry in ("Kind = conforming", "Polyline =", "Rule = equal", "Particles per segment = 0",
                                      "Penalty factor = 10000", "Enforcement = projected penalty")]
 
 

@@ -41,6 +41,8 @@ struct SeedingScene
     body.declare(file, "body");
     boundary.declare(file, "wall");
     file.apply();
+    body.complete(1);
+    boundary.complete(1);
     grid.check(file, dim);
     if (entries.find("b/") != std::string::npos)
       body.check(file, dim);

@@ -2,7 +2,7 @@
 
 Small strains: the error of the tip wherever the clamp cuts its cells, at the hard
 places, too; forces and moments of large strains balance; Newton's iteration and the
-non-symmetric form; the contained block of paper I (5.1).
+non-symmetric form; the contained block of paper I (5.1); a pressed plastic block.
 """
 
 import random
@@ -13,6 +13,7 @@ from driver import expect, run_scene
 SMALL = "beyond/cantilever-nitsche.prm"
 LARGE = "beyond/cantilever-total-lagrangian.prm"
 BLOCK = "implicit-boundary/5.1-contained-block.prm"
+PRESS = Path(__file__).with_name("pressed_block.prm")
 NEWTON = Path(__file__).with_name("newton.prm")
 QUIET = ["Output/Pictures every = 0"]
 NEAR_FACES = [1e-3, 1e-6, 1e-9, 1e-12]
@@ -86,6 +87,29 @@ def check_block():
             expect(worst <= 1e-11, f"block at {angle} degrees")
 
 
+def check_plastic():
+    """Far beyond the yield stress, walls that cut cells do what sides of the grid
+    do, in as many iterations: linear displacements are in both spaces."""
+    found = {}
+    for title, settings in {
+            "conforming": [f"Boundaries/{wall}/{entry}" for wall, side in
+                           (("ram", 0), ("stop", 1), ("floor", 2)) for entry in
+                           ("Kind = conforming", f"Boundary id = {side}",
+                            "Polyline =", "Rule = equal", "Enforcement = projected penalty")]
+            + ["Grid/Shift = 0, 0", "Grid/Arguments = 10, 5 : 0, 0 : 1, 0.5"],
+            "linear": [],
+            "quadratic spline": ["Grid/Basis = quadratic spline",
+                                 "Grid/Ghost penalty = 1e-3"]}.items():
+        summary = run_scene(PRESS, "press", settings)
+        results, counts = summary["results"], summary["counts"]
+        found[title] = [results[name]["value"] for name in ("force F_x", "corner u_y")]
+        error = max(abs(a / b - 1) for a, b in zip(found[title], found["conforming"]))
+        print(f"pressed block, {title}: {found[title][0]:.8e} N, {error:.1e}, "
+              f"{counts['newton iterations']} iterations", flush=True)
+        expect(error < 1e-8 and counts["halved steps"] == 0, f"pressed block, {title}")
+        expect(counts["newton iterations"] <= 45, f"pressed block, {title}")
+
+
 def main():
     check_cuts("quadratic splines", [], (0, 1, 2), BOUNDS)
     check_cuts("cubic splines", ["Grid/Basis = cubic spline",
@@ -97,6 +121,7 @@ def main():
     check_balance(["Grid/Reset = every step"])
     check_newton()
     check_block()
+    check_plastic()
 
 
 main()

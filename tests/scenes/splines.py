@@ -47,7 +47,7 @@ def check_conforming():
             "Grid/Arguments = 17, 5 : 0, 0 : 8.5, 2.5", "Grid/Shift = 0, -1.15",
             "Boundaries/clamp/Kind = conforming", "Boundaries/clamp/Polyline =",
             "Boundaries/clamp/Rule = equal",
-            "Boundaries/clamp/Particles per segment = 2",
+            "Boundaries/clamp/Particles per segment = 0",
             "Boundaries/clamp/Penalty factor = 10000",
             "Boundaries/clamp/Enforcement = projected penalty"])
         print(f"conforming, {basis}: {error:.2e}")

@@ -60,6 +60,11 @@ def main():
     expect_warning("fewer particles than cut cells",
                    "'clamp' has 4 particles but cuts 9 cells of the grid",
                    BAR_3D, ["Boundaries/clamp/Rule = equal"])
+    few = ["Grid/Basis = cubic spline", "Boundaries/clamp/Particles per segment = 2"]
+    expect_warning("few particles for a cubic spline",
+                   "'Particles per segment = 2', few for a basis 'cubic spline'. Set 4",
+                   BAR, few)
+    expect("Warning" not in said_by(BAR, few[:1]), "the default serves")
     lost = "50 % of boundary 'load' have no material in their cells"
     expect_warning("a load beside the material", lost, BAR,
                    [*LOAD, "Grid/Arguments = 14, 3 : 0, 0 : 3.5, 0.75",
@@ -67,6 +72,9 @@ def main():
                     "Boundaries/load/Polyline = 2 0; 2 0.5 | 3 0; 3 0.5"],
                    check=False)
 
+    expect_warning("consistent masses on a grid that is reset",
+                   "'Projection = consistent' on a grid that is reset", BLOCK,
+                   ["Time/Projection = consistent"])
     check_lost_probe()
 
     said = said_by(BAR, ["Time/Step = 0.25", "Linear solver/Kind = iterative",

@@ -50,13 +50,14 @@ namespace Impoint
     double      jump_penalty   = 0.3;         // [h^dim/E]
     double      band_width     = 1e-6;        // [h]
     double      nitsche_factor = 0;           // [n.C.n/h]; 0: by degree
-    std::string nitsche_form   = "symmetric"; // symmetric|non-symmetric
-    bool        small_cut_rule = false;
-    bool        releasing      = false;
-    double      friction       = 0;              // of a slip boundary
-    std::string normals        = "automatic";    // automatic|particle|nodal
-    std::string value_kind     = "displacement"; // displacement|velocity
-    std::string motion         = "automatic";
+    // automatic|symmetric|non-symmetric|incomplete
+    std::string         nitsche_form   = "automatic";
+    bool                small_cut_rule = false;
+    bool                releasing      = false;
+    double              friction       = 0;          // of a slip boundary
+    std::string         normals    = "automatic";    // automatic|particle|nodal
+    std::string         value_kind = "displacement"; // displacement|velocity
+    std::string         motion     = "automatic";
     std::vector<double> rotation_centre, rotation_axis;
     double              from  = std::numeric_limits<double>::lowest();
     double              until = std::numeric_limits<double>::max();

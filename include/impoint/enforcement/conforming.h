@@ -3,6 +3,7 @@
 
 #include <impoint/enforcement/condition.h>
 #include <impoint/grid/active_nodes.h>
+#include <impoint/particles/body_parameters.h>
 
 #include <vector>
 
@@ -43,11 +44,11 @@ namespace Impoint
     public:
       explicit Conforming(const Basis<dim> &basis);
 
-      /** Adds the part of the grid's boundary with @p boundary_id. Collective;
+      /** Adds the @p sides of the grid. Collective;
        * throws InputError if the grid has no such part. */
       void add_boundary(const ParameterFile       &file,
                         const ConditionParameters &parameters,
-                        const types::boundary_id   boundary_id);
+                        const BoundaryParameters  &sides);
 
       unsigned int n_boundaries() const
       {

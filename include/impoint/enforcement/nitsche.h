@@ -21,7 +21,10 @@ namespace Impoint
      * exact tangents of both parts come from the material's tangent. Forces
      * and moments of the residual balance exactly, as W does not change with
      * rotations. The non-symmetric form turns the sign of the terms that are
-     * the derivative of P N times g.
+     * the derivative of P N times g. The incomplete one leaves them out: this
+     * derivative is the material's tangent, which jumps where material yields,
+     * so with them the residual of a plastic material has kinks, in which
+     * Newton's method stays or meets an indefinite matrix.
      *
      * h is at most the width of the material in the cut cell (its volume there
      * over the area): the functions that see a sliver of it alone would make

@@ -139,7 +139,7 @@ namespace Impoint
     /** Highest power of one coordinate. */
     unsigned int degree() const
     {
-      return kind == "linear" ? 1 : (kind == "cubic spline" ? 3 : 2);
+      return of_degree;
     }
 
     /** As in the parameter file. */
@@ -161,6 +161,7 @@ namespace Impoint
 
     const BackgroundGrid<dim>          &background;
     std::string                         kind;
+    unsigned int                        of_degree;
     std::unique_ptr<CellFunctions<dim>> functions;
     std::vector<SplineLine>             lattice_lines;
   };

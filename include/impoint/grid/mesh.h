@@ -55,6 +55,12 @@ namespace Impoint
     // linear|quadratic|quadratic spline|cubic spline
     std::string basis = "linear";
 
+    /** Highest power of one coordinate in the basis. */
+    unsigned int degree() const
+    {
+      return basis == "linear" ? 1 : (basis == "cubic spline" ? 3 : 2);
+    }
+
     double ghost_penalty = -1; // entry; below 0: automatic
 
     /** Factor of Young's modulus; 0: no ghost penalty. */

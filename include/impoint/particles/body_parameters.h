@@ -1,6 +1,7 @@
 #ifndef impoint_particles_body_parameters_h
 #define impoint_particles_body_parameters_h
 
+#include <impoint/base/exceptions.h>
 #include <impoint/grid/mesh.h>
 
 #include <string>
@@ -25,13 +26,16 @@ namespace Impoint
     /** Throws InputError for entries that clash in @p dim dimensions. */
     void check(const ParameterFile &file, const unsigned int dim) const;
 
+    /** Fills in what entries leave to the @p degree of the basis. */
+    void complete(const unsigned int degree);
+
     std::string name;    // "beam"
     std::string section; // "Bodies/beam"
 
     MeshParameters mesh; // the body's shape, section "Bodies/beam/Mesh"
 
     std::string  points = "body mesh"; // body mesh|clipped
-    unsigned int rule   = 2; // a direction: Gauss points, or sub-cells
+    unsigned int rule   = 0; // a direction: Gauss points, or sub-cells
     unsigned int points_per_simplex = 0;          // 0: dim + 1
     std::string  piece              = "centroid"; // clipped: centroid|gauss
     std::string  outline; // clipped: 2D polygon "x y; ..."; empty: the mesh
@@ -52,13 +56,16 @@ namespace Impoint
   };
 
   /** A nonconforming boundary: its shape and its particles. Or the sides of the
-   * grid with an id, if it is conforming. */
+   * grid with an id, if it is conforming: a traction has particles on them. */
   struct BoundaryParameters
   {
     void declare(ParameterFile &file, const std::string &name);
 
     /** Throws InputError for entries that clash in @p dim dimensions. */
     void check(const ParameterFile &file, const unsigned int dim) const;
+
+    /** Fills in what entries leave to the @p degree of the basis. */
+    void complete(const unsigned int degree);
 
     std::string name;    // "clamp"
     std::string section; // "Boundaries/clamp"
@@ -70,9 +77,12 @@ namespace Impoint
     std::string    polyline;
     MeshParameters mesh;                      // section ".../Mesh"
     double         segment_length        = 0; // 0: as given
-    unsigned int   particles_per_segment = 2;
+    unsigned int   particles_per_segment = 0;
     std::string    rule                  = "equal"; // equal|gauss|cut
     bool           flip_normal           = false;
+
+    /** The grid has no sides with the id. */
+    InputError no_such_side(const ParameterFile &file) const;
 
   private:
     void check_conforming(const ParameterFile &file) const;

@@ -57,7 +57,8 @@ namespace Impoint
                        const BackgroundGrid<dim> &grid);
 
   /**
-   * The boundary's particles that lie in this rank's own cells. Those on a face
+   * The boundary's particles that lie in this rank's own cells; of a conforming
+   * one, Gauss points on its sides of the grid. Those on a face
    * of the grid belong to the cell on the inner side, against the normal, if
    * there is one. Particles outside of the grid are left out; throws
    * InputError, on all ranks, if all of them are. Collective.
