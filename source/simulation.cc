@@ -1,6 +1,7 @@
 #include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/base/scoped_seconds.h>
+#include <impoint/enforcement/acting_cells.h>
 #include <impoint/enforcement/proximity.h>
 #include <impoint/setup.h>
 #include <impoint/setup_checks.h>
@@ -62,9 +63,7 @@ namespace Impoint
                                                     seconds);
     system->add_term(
       std::make_unique<InternalForce<dim>>(*points, &end_states));
-    if (scene.grid.ghost_factor() > 0)
-      system->add_ghost_penalty(scene.grid.ghost_factor(),
-                                points->carried().thickness);
+    system->set_ghost_penalty(scene.grid.ghost_factor());
     newton = std::make_unique<Newton<dim>>(scene.newton, *system, counters);
     for (const auto &measurement : scene.measurements)
       measurements.push_back(Measurements::create<dim>(file, measurement));
@@ -231,14 +230,19 @@ namespace Impoint
   {
     bool changed = false;
     {
-      ScopedSeconds timer(seconds.pattern);
+      ScopedSeconds             timer(seconds.pattern);
+      std::vector<unsigned int> reached;
       changed = active.reinit(
         points->cells(),
         Enforcement::cells(methods, start, end, scene.grid.is_kept()),
-        [&]() { return system->find_links(start, end); });
+        [&]() { return system->find_links(start, end); },
+        [&](const auto &candidates) {
+          return Enforcement::acting_cells(
+            methods, start, end, candidates, grid, *points, reached);
+        });
+      system->set_reached(reached);
     }
-    // Whether a run went on or was resumed after a checkpoint must not show in
-    // its last digits: both begin with a new factor.
+    // Resumed or gone on after a checkpoint: the same digits with a new factor.
     if (changed || solver_starts_anew)
       system->new_active_set();
     if (changed || points_changed_cells || solver_starts_anew)
@@ -343,7 +347,7 @@ namespace Impoint
       }
     if (scene.time.moves_after(time) && !scene.grid.is_kept())
       Enforcement::check_crossing(
-        methods, active, *points, places, boundary_places);
+        methods, grid, *points, places, boundary_places);
   }
 
 

@@ -144,8 +144,10 @@ namespace Impoint
           near.resize(this->boundary->n());
           for (unsigned int b = 0; b < near.size(); ++b)
             near[b] = is_closed(b);
-          proximity =
-            distances(*this->boundary, near, *step.active, *step.points);
+          proximity = distances(*this->boundary,
+                                near,
+                                step.active->basis().grid(),
+                                *step.points);
           // without material before it nothing is held
           const double h = step.active->basis().grid().smallest_size();
           for (unsigned int b = 0; b < near.size(); ++b)

@@ -30,16 +30,17 @@ namespace Impoint
 
 
 
-      /** Particles of all ranks, in the order of ranks. */
+      /** Those of @p particles of all ranks, in the order of ranks. */
       template <int dim>
       std::vector<Facet<dim>>
-      all_facets(const BoundaryParticles<dim>  &boundary,
-                 const std::vector<Point<dim>> &new_places,
-                 const std::vector<char>       &closed,
-                 const MPI_Comm                 communicator)
+      all_facets(const BoundaryParticles<dim>    &boundary,
+                 const std::vector<unsigned int> &particles,
+                 const std::vector<Point<dim>>   &new_places,
+                 const std::vector<char>         &closed,
+                 const MPI_Comm                   communicator)
       {
         std::vector<double> own;
-        for (unsigned int b = 0; b < boundary.n(); ++b)
+        for (const unsigned int b : particles)
           {
             const Tensor<1, dim> normal =
               boundary.vector(b, boundary.slots().normal);
@@ -91,7 +92,7 @@ namespace Impoint
       template <int dim, typename Function>
       void for_points_near(const Point<dim>          &x,
                            const double               reach,
-                           const ActiveNodes<dim>    &active,
+                           const BackgroundGrid<dim> &grid,
                            const MaterialPoints<dim> &points,
                            const Function            &function)
       {
@@ -101,16 +102,30 @@ namespace Impoint
             lower[d] -= reach;
             upper[d] += reach;
           }
-        for (const unsigned int c :
-             active.basis().grid().cells_near(lower, upper))
+        for (const unsigned int c : grid.cells_near(lower, upper))
           {
-            const unsigned int k = active.position(c);
-            if (k < active.n_material_cells())
-              for (unsigned int p = points.ranges()[k].begin;
-                   p < points.ranges()[k].end;
-                   ++p)
+            const auto range =
+              std::lower_bound(points.ranges().begin(),
+                               points.ranges().end(),
+                               c,
+                               [](const auto &one, const unsigned int other) {
+                                 return one.cell < other;
+                               });
+            if (range != points.ranges().end() && range->cell == c)
+              for (unsigned int p = range->begin; p < range->end; ++p)
                 function(p);
           }
+      }
+
+
+
+      /** Of point @p p; that at the start if the grid is kept. */
+      template <int dim>
+      Point<dim> place(const MaterialPoints<dim> &points, const unsigned int p)
+      {
+        return points.carried().keeps_grid ?
+                 Point<dim>(points.vector(p, points.slots().start)) :
+                 points.position(p);
       }
 
 
@@ -125,24 +140,35 @@ namespace Impoint
 
 
 
-    template <int dim>
-    std::vector<Proximity> distances(const BoundaryParticles<dim> &boundary,
-                                     const std::vector<char>      &closed,
-                                     const ActiveNodes<dim>       &active,
-                                     const MaterialPoints<dim>    &points)
+    namespace
     {
-      const auto             &grid = active.basis().grid();
-      const double            h    = grid.smallest_size();
-      std::vector<Point<dim>> places(boundary.n());
-      for (unsigned int b = 0; b < boundary.n(); ++b)
-        places[b] = boundary.position(b);
-      const auto facets =
-        all_facets(boundary, places, closed, grid.communicator());
+      std::vector<unsigned int> all_of(const unsigned int n)
+      {
+        std::vector<unsigned int> numbers(n);
+        std::iota(numbers.begin(), numbers.end(), 0U);
+        return numbers;
+      }
+    } // namespace
+
+
+
+    template <int dim>
+    std::vector<Proximity>
+    distances_of(const BoundaryParticles<dim>    &boundary,
+                 const std::vector<unsigned int> &particles,
+                 const std::vector<Point<dim>>   &places,
+                 const std::vector<char>         &closed,
+                 const BackgroundGrid<dim>       &grid,
+                 const MaterialPoints<dim>       &points)
+    {
+      const double h = grid.smallest_size();
+      const auto   facets =
+        all_facets(boundary, particles, places, closed, grid.communicator());
       std::vector<double> edge(facets.size(), h), centre(facets.size(), 0.);
       for (unsigned int i = 0; i < facets.size(); ++i)
         for_points_near(
-          facets[i].x, h, active, points, [&](const unsigned int p) {
-            const Tensor<1, dim> away   = facets[i].x - points.position(p);
+          facets[i].new_x, h, grid, points, [&](const unsigned int p) {
+            const Tensor<1, dim> away   = facets[i].new_x - place(points, p);
             const double         before = away * facets[i].normal;
             const double half = half_edge(points, p, boundary.thickness());
             if (before > -h && aside(away, facets[i].normal) <=
@@ -159,22 +185,37 @@ namespace Impoint
           Utilities::MPI::min(*values, grid.communicator(), *values);
 
       const auto counts =
-        Utilities::MPI::all_gather(grid.communicator(), boundary.n());
+        Utilities::MPI::all_gather(grid.communicator(), particles.size());
       const unsigned int rank =
         Utilities::MPI::this_mpi_process(grid.communicator());
-      const unsigned int first =
-        std::accumulate(counts.begin(), counts.begin() + rank, 0U);
-      std::vector<Proximity> own(boundary.n());
-      for (unsigned int b = 0; b < own.size(); ++b)
-        own[b] = {edge[first + b], -centre[first + b]};
+      const std::size_t first =
+        std::accumulate(counts.begin(), counts.begin() + rank, std::size_t(0));
+      std::vector<Proximity> own(particles.size());
+      for (unsigned int i = 0; i < own.size(); ++i)
+        own[i] = {edge[first + i], -centre[first + i]};
       return own;
     }
 
 
 
     template <int dim>
+    std::vector<Proximity> distances(const BoundaryParticles<dim> &boundary,
+                                     const std::vector<char>      &closed,
+                                     const BackgroundGrid<dim>    &grid,
+                                     const MaterialPoints<dim>    &points)
+    {
+      std::vector<Point<dim>> places(boundary.n());
+      for (unsigned int b = 0; b < boundary.n(); ++b)
+        places[b] = boundary.position(b);
+      return distances_of(
+        boundary, all_of(boundary.n()), places, closed, grid, points);
+    }
+
+
+
+    template <int dim>
     void check_crossing(const Methods<dim>                         &methods,
-                        const ActiveNodes<dim>                     &active,
+                        const BackgroundGrid<dim>                  &grid,
                         const MaterialPoints<dim>                  &points,
                         const std::vector<Point<dim>>              &new_places,
                         const std::vector<std::vector<Point<dim>>> &wall_places)
@@ -183,7 +224,6 @@ namespace Impoint
             return method->is_active() && method->constrains();
           }))
         return;
-      const auto    &grid    = active.basis().grid();
       const MPI_Comm comm    = grid.communicator();
       const double   h       = grid.smallest_size();
       double         fastest = 0;
@@ -207,11 +247,15 @@ namespace Impoint
       for (unsigned int m = 0; m < methods.size(); ++m)
         if (methods[m]->is_active() && methods[m]->constrains())
           for (const auto &facet :
-               all_facets(methods[m]->particles(), wall_places[m], {}, comm))
+               all_facets(methods[m]->particles(),
+                          all_of(methods[m]->particles().n()),
+                          wall_places[m],
+                          {},
+                          comm))
             for_points_near(
               facet.x,
               h + 2. * fastest,
-              active,
+              grid,
               points,
               [&](const unsigned int p) {
                 const Tensor<1, dim> before = points.position(p) - facet.x,
@@ -232,16 +276,23 @@ namespace Impoint
         throw StepFailed("a material point would pass a wall in one step");
     }
 
-#define IMPOINT_INSTANTIATE(dim)                                                  \
-  template std::vector<Proximity> distances(const BoundaryParticles<dim> &,       \
-                                            const std::vector<char> &,            \
-                                            const ActiveNodes<dim> &,             \
-                                            const MaterialPoints<dim> &);         \
-  template void                   check_crossing(const Methods<dim> &,            \
-                                                 const ActiveNodes<dim> &,        \
-                                                 const MaterialPoints<dim> &,     \
-                                                 const std::vector<Point<dim>> &, \
-                                                 const std::vector<std::vector<Point<dim>>> &);
+#define IMPOINT_INSTANTIATE(dim)                                            \
+  template std::vector<Proximity> distances(const BoundaryParticles<dim> &, \
+                                            const std::vector<char> &,      \
+                                            const BackgroundGrid<dim> &,    \
+                                            const MaterialPoints<dim> &);   \
+  template std::vector<Proximity> distances_of(                             \
+    const BoundaryParticles<dim> &,                                         \
+    const std::vector<unsigned int> &,                                      \
+    const std::vector<Point<dim>> &,                                        \
+    const std::vector<char> &,                                              \
+    const BackgroundGrid<dim> &,                                            \
+    const MaterialPoints<dim> &);                                           \
+  template void check_crossing(const Methods<dim> &,                        \
+                               const BackgroundGrid<dim> &,                 \
+                               const MaterialPoints<dim> &,                 \
+                               const std::vector<Point<dim>> &,             \
+                               const std::vector<std::vector<Point<dim>>> &);
 
     IMPOINT_INSTANTIATE(2)
     IMPOINT_INSTANTIATE(3)

@@ -22,24 +22,37 @@ namespace Impoint
   template <int dim>
   bool ActiveNodes<dim>::reinit(const std::vector<unsigned int> &material_cells,
                                 const std::vector<unsigned int> &boundary_cells,
-                                const std::function<Links()>    &find_links)
+                                const std::function<Links()>    &find_links,
+                                const Selection                 &select)
   {
-    const MPI_Comm comm = functions.grid().communicator();
-    const bool     new_cells =
-      Utilities::MPI::max(int(fresh || material_cells != last_material ||
-                              boundary_cells != last_boundary),
-                          comm);
-    if (new_cells)
+    const MPI_Comm comm    = functions.grid().communicator();
+    const auto     any_has = [&](const bool value) {
+      return Utilities::MPI::max(int(value), comm) != 0;
+    };
+    if (any_has(fresh || material_cells != last_material ||
+                boundary_cells != last_boundary))
       {
-        fresh         = false;
         last_material = material_cells;
         last_boundary = boundary_cells;
-        activate(material_cells, boundary_cells);
+        find_neighbors();
       }
+    const std::vector<unsigned int> new_cells =
+      select ? select(neighbors) : neighbors;
+    const bool changed = any_has(fresh || material_cells.size() != n_material ||
+                                 !std::equal(cells.begin(),
+                                             cells.begin() + n_material,
+                                             material_cells.begin()) ||
+                                 !std::equal(cells.begin() + n_material,
+                                             cells.end(),
+                                             new_cells.begin(),
+                                             new_cells.end()));
+    fresh              = false;
+    if (changed)
+      activate(new_cells);
     Links new_links;
     if (find_links)
       new_links = find_links();
-    if (!Utilities::MPI::max(int(new_cells || !(new_links == links)), comm))
+    if (!any_has(changed || !(new_links == links)))
       return false;
     links = new_links;
     number();
@@ -108,31 +121,25 @@ namespace Impoint
 
 
   template <int dim>
-  void
-  ActiveNodes<dim>::activate(const std::vector<unsigned int> &material_cells,
-                             const std::vector<unsigned int> &boundary_cells)
+  void ActiveNodes<dim>::find_neighbors()
   {
-    for (const unsigned int c : cells)
-      positions[c] = BackgroundGrid<dim>::nowhere;
-    cells      = material_cells;
-    n_material = cells.size();
-    for (unsigned int k = 0; k < n_material; ++k)
-      positions[cells[k]] = k;
-
     std::vector<unsigned int> without_material, wanted;
-    for (const unsigned int c : boundary_cells)
-      if (positions[c] == BackgroundGrid<dim>::nowhere)
-        without_material.push_back(c);
+    std::set_difference(last_boundary.begin(),
+                        last_boundary.end(),
+                        last_material.begin(),
+                        last_material.end(),
+                        std::back_inserter(without_material));
     if (Utilities::MPI::n_mpi_processes(functions.grid().communicator()) > 1)
       {
         mark_nodes_of(without_material);
         wanted = marks.members();
         marks.clear();
-        mark_nodes_of(material_cells);
+        mark_nodes_of(last_material);
         share_marks(wanted);
       }
     else if (!without_material.empty())
-      mark_nodes_of(material_cells);
+      mark_nodes_of(last_material);
+    neighbors.clear();
     for (const unsigned int c : without_material)
       {
         const auto nodes = functions.nodes(c);
@@ -141,12 +148,25 @@ namespace Impoint
                         [&](const unsigned int node) {
                           return marks.contains(node);
                         }))
-          {
-            positions[c] = cells.size();
-            cells.push_back(c);
-          }
+          neighbors.push_back(c);
       }
     marks.clear();
+  }
+
+
+
+  /** The material cells, and @p without_material. */
+  template <int dim>
+  void
+  ActiveNodes<dim>::activate(const std::vector<unsigned int> &without_material)
+  {
+    for (const unsigned int c : cells)
+      positions[c] = BackgroundGrid<dim>::nowhere;
+    cells      = last_material;
+    n_material = cells.size();
+    cells.insert(cells.end(), without_material.begin(), without_material.end());
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      positions[cells[k]] = k;
   }
 
 

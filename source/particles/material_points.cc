@@ -46,6 +46,7 @@ namespace Impoint
         all_small_strain &= material->small_strain();
         all_constant &= material->constant_tangent();
         all_symmetric &= material->symmetric_tangent();
+        all_equally_stiff &= material->young() == young();
       }
   }
 

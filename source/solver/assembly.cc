@@ -19,6 +19,7 @@ namespace Impoint
                   points.small_strain() || points.carried().dynamic)
     , hourglass(active, points.young() * points.carried().thickness)
     , consistent_mass(points)
+    , ghost_penalty(active, points)
   {}
 
 
@@ -27,8 +28,7 @@ namespace Impoint
   void Assembly<dim>::new_active_set()
   {
     empty_cells.reinit();
-    if (ghost_penalty)
-      ghost_penalty->new_active_set();
+    ghost_penalty.new_active_set();
   }
 
 
@@ -67,29 +67,16 @@ namespace Impoint
 
 
   /** In dynamics the mass holds what few points cannot see. Next to none of it
-   * is not enough where contact opens and closes. A boundary that carries the
-   * material's traction wants the stiffness of a whole cell below it. */
+   * is not enough where contact opens and closes. */
   template <int dim>
   void Assembly<dim>::begin_step()
   {
     in_contact.assign(active.n_cells(), false);
-    empty_cells.rest();
     for (const auto &method : methods)
-      if (method->is_active())
+      if (method->is_active() && !method->is_linear())
         Enforcement::for_active_ranges(
           *method, active, [&](const unsigned int, const unsigned int k) {
-            if (k >= active.n_material_cells())
-              empty_cells.fill(k);
-          });
-    for (const auto &method : methods)
-      if (method->is_active())
-        Enforcement::for_active_ranges(
-          *method, active, [&](const unsigned int r, const unsigned int k) {
-            if (!method->is_linear())
-              in_contact[k] = true;
-            else if (k >= active.n_material_cells() && method->constrains() &&
-                     !method->parameters().carries_material())
-              empty_cells.bound(k, method->particles().material_side(r));
+            in_contact[k] = true;
           });
   }
 
@@ -188,12 +175,10 @@ namespace Impoint
                                     system);
               }
           }
-        else if (part == Part::constraints || !ghost_penalty ||
-                 !ghost_penalty->holds(k))
+        else if (!ghost_penalty.holds(k))
           {
             empty_cells.add(k, system);
-            if (tangent_wanted &&
-                (empty_cells.rests(k) || (inertia != nullptr && in_contact[k])))
+            if (tangent_wanted && inertia != nullptr && in_contact[k])
               empty_cells.anchor(system);
           }
         scatter_residual(k);
@@ -352,9 +337,8 @@ namespace Impoint
       if (!message.empty())
         throw StepFailed(message);
 
-    // at rest it has no force
-    if (ghost_penalty && part == Part::all)
-      assemble_ghost_penalty(u, tangent_wanted);
+    if (part != Part::loads) // at rest it has no force
+      assemble_ghost_penalty(u, tangent_wanted, part);
     double scale = external.l2_norm();
     if (inertia != nullptr &&
         (part == Part::constraints || !inertia->consistent()))

@@ -5,21 +5,10 @@
 namespace Impoint
 {
   template <int dim>
-  void Assembly<dim>::add_ghost_penalty(const double factor,
-                                        const double thickness)
-  {
-    ghost_penalty =
-      std::make_unique<GhostPenalty<dim>>(active, points, factor, thickness);
-  }
-
-
-
-  template <int dim>
   Links Assembly<dim>::find_links(const double start, const double end)
   {
     Links links;
-    if (ghost_penalty)
-      ghost_penalty->find_links(links);
+    ghost_penalty.find_links(links);
     for (const auto &method : methods)
       method->find_links(start, end, active, links);
     return links;
@@ -29,22 +18,25 @@ namespace Impoint
 
   template <int dim>
   void Assembly<dim>::assemble_ghost_penalty(const Vector &u,
-                                             const bool    tangent_wanted)
+                                             const bool    tangent_wanted,
+                                             const Part    part)
   {
     CellSystem system;
-    for (unsigned int l = 0; l < ghost_penalty->n_links(); ++l)
+    for (unsigned int l = 0; l < ghost_penalty.n_links(); ++l)
       {
-        const unsigned int k = ghost_penalty->group(l);
+        if (part == Part::constraints && !ghost_penalty.at_empty(l))
+          continue;
+        const unsigned int k = ghost_penalty.group(l);
         gather(k, u, cell_u);
         begin_cell(k, tangent_wanted, system);
-        ghost_penalty->add(l, system);
+        ghost_penalty.add(l, system);
         if (inertia != nullptr && inertia->consistent())
           {
             accelerations_of(k);
-            ghost_penalty->add_mass(l,
-                                    cell_accelerations.data(),
-                                    inertia->alpha(),
-                                    system);
+            ghost_penalty.add_mass(l,
+                                   cell_accelerations.data(),
+                                   inertia->alpha(),
+                                   system);
           }
         scatter_residual(k);
         if (tangent_wanted)

@@ -88,16 +88,16 @@ namespace Impoint
   template <int dim>
   bool Newton<dim>::has_converged(const Vector &delta, const Vector &u)
   {
-    constexpr unsigned int enough = 3;
-    const double           size   = u.linfty_norm();
-    const double increment        = size > 0 ? delta.linfty_norm() / size : 0.;
-    const double residual         = history.back();
+    constexpr unsigned int enough   = 3;
+    const double           residual = history.back();
     if (!system.contact_settled())
       return false;
     n_balanced = residual <= parameters.tolerance ? n_balanced + 1 : 0;
     if (n_balanced == enough && system.has_kinks())
       return true;
-    return increment <= parameters.increment_tolerance &&
+    return delta.linfty_norm() <=
+             std::max(parameters.increment_tolerance * u.linfty_norm(),
+                      system.smallest_displacement()) &&
            (residual <= parameters.tolerance ||
             residual <= system.round_off(u));
   }

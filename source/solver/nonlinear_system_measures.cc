@@ -82,6 +82,14 @@ namespace Impoint
 
 
   template <int dim>
+  double NonlinearSystem<dim>::smallest_displacement() const
+  {
+    return machine_precision * active.basis().grid().smallest_size();
+  }
+
+
+
+  template <int dim>
   double NonlinearSystem<dim>::round_off(const Vector &u) const
   {
     const double stiffest =

@@ -1,4 +1,3 @@
-#include <impoint/particles/clipping.h>
 #include <impoint/terms/empty_cells.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -8,14 +7,6 @@
 
 namespace Impoint
 {
-  namespace
-  {
-    // what is left of the stiffness where no boundary acts
-    constexpr double resting_part = 1e-9;
-  } // namespace
-
-
-
   template <int dim>
   EmptyCells<dim>::EmptyCells(const ActiveNodes<dim> &active,
                               const double            young,
@@ -33,50 +24,6 @@ namespace Impoint
     points.clear();
     for (unsigned int k = active.n_material_cells(); k < active.n_cells(); ++k)
       points.push_back(integrate(active.cell(k)));
-    parts.assign(points.size(), 1.);
-  }
-
-
-
-  template <int dim>
-  void EmptyCells<dim>::rest()
-  {
-    parts.assign(points.size(), resting_part);
-  }
-
-
-
-  template <int dim>
-  bool EmptyCells<dim>::rests(const unsigned int k) const
-  {
-    return parts[k - active.n_material_cells()] == resting_part;
-  }
-
-
-
-  template <int dim>
-  void EmptyCells<dim>::fill(const unsigned int k)
-  {
-    parts[k - active.n_material_cells()] = 1.;
-  }
-
-
-
-  template <int dim>
-  void EmptyCells<dim>::bound(const unsigned int    k,
-                              const HalfSpace<dim> &half_space)
-  {
-    constexpr double smallest = 0.1, shortest_normal = 0.9;
-    if (half_space.normal.norm() < shortest_normal)
-      return;
-    double             &part   = parts[k - active.n_material_cells()];
-    ConvexPolytope<dim> inside = ConvexPolytope<dim>::from_cell(
-      active.basis().grid().vertices(active.cell(k)));
-    const double whole = inside.volume();
-    inside.clip(half_space);
-    part = std::min(part,
-                    std::max(smallest,
-                             inside.empty() ? 0. : inside.volume() / whole));
   }
 
 
@@ -171,9 +118,8 @@ namespace Impoint
   template <int dim>
   void EmptyCells<dim>::add(const unsigned int k, CellSystem &system) const
   {
-    const unsigned int i = k - active.n_material_cells();
-    for (const Gradients &point : points[i])
-      add_point(point, parts[i] * young, system);
+    for (const Gradients &point : points[k - active.n_material_cells()])
+      add_point(point, young, system);
   }
 
 

@@ -13,19 +13,32 @@ namespace Impoint
     // on cut cantilevers: 0.3 keeps the worst cut as near to the others as 1
     // does, and disturbs less.
     constexpr double enough = 0.3;
+
+    // Of a cell without material, where the scene asks for nothing else: as
+    // stiff as the material that it continues.
+    constexpr double factor_of_empty = 1.;
+
+    // Where contact has no material before it yet: enough to give nodes a place
+    // and too little to throw what is on its way to the wall.
+    constexpr double part_of_unreached = 1e-3;
+
+    // Where a boundary of a kept grid rests.
+    constexpr double part_of_resting = 1e-9;
+
+    /** The softer one holds enough; a cell without material has no say. */
+    double lower(const double a, const double b)
+    {
+      return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);
+    }
   } // namespace
 
 
 
   template <int dim>
   GhostPenalty<dim>::GhostPenalty(const ActiveNodes<dim>    &active,
-                                  const MaterialPoints<dim> &points,
-                                  const double               factor,
-                                  const double               thickness)
+                                  const MaterialPoints<dim> &points)
     : active(active)
     , points(points)
-    , factor(factor)
-    , thickness(thickness)
   {}
 
 
@@ -37,8 +50,15 @@ namespace Impoint
     Content result;
     if (k >= active.n_material_cells())
       return result;
-    const auto &range  = points.ranges()[k];
-    double      volume = 0, initial = 0, mass = 0;
+    const auto &range = points.ranges()[k];
+    for (unsigned int p = range.begin; p < range.end; ++p)
+      result.young = std::max(result.young, points.material(p).young());
+    if (factor == 0.) // only whether there is material
+      {
+        result.filled = 1;
+        return result;
+      }
+    double volume = 0, initial = 0, mass = 0;
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
         const double *state = points.data(p);
@@ -48,10 +68,9 @@ namespace Impoint
                      1. :
                      determinant(points.deformation_gradient(p)));
         mass += state[points.slots().mass];
-        result.young = std::max(result.young, points.material(p).young());
       }
-    result.filled =
-      volume / (thickness * active.basis().grid().volume(active.cell(k)));
+    result.filled  = volume / (points.carried().thickness *
+                              active.basis().grid().volume(active.cell(k)));
     result.density = mass / initial;
     return result;
   }
@@ -82,8 +101,57 @@ namespace Impoint
     known.clear();
     for (unsigned int k = 0; k < active.n_cells(); ++k)
       set_content(active.cell(k), content(k));
-    if (Utilities::MPI::n_mpi_processes(grid.communicator()) > 1)
-      share_contents();
+    share_contents();
+    for (unsigned int sweep = 0; sweep < dim; ++sweep)
+      continue_material();
+  }
+
+
+
+  /** Cells without material continue that of their neighbours; those that
+   * share but an edge or a vertex with it, by cells between. */
+  template <int dim>
+  void GhostPenalty<dim>::continue_material()
+  {
+    std::vector<std::pair<unsigned int, double>> found;
+    for (unsigned int k = active.n_material_cells(); k < active.n_cells(); ++k)
+      {
+        const unsigned int c = active.cell(k);
+        if (contents[c].young > 0)
+          continue;
+        double young = 0;
+        for_neighbors(c, [&](const unsigned int, const unsigned int n) {
+          young = std::max(young, contents[n].young);
+        });
+        if (young > 0)
+          found.emplace_back(c, young);
+      }
+    for (const auto &cell : found)
+      contents[cell.first].young = cell.second;
+    share_contents();
+  }
+
+
+
+  /** Calls function(face, neighbour) for the cells of the grid that share a
+   * face, or a part of one, with cell @p c. */
+  template <int dim>
+  template <typename Function>
+  void GhostPenalty<dim>::for_neighbors(const unsigned int c,
+                                        const Function    &function) const
+  {
+    const auto &cell = active.basis().grid().cell(c);
+    for (const unsigned int f : cell->face_indices())
+      {
+        if (cell->at_boundary(f))
+          continue;
+        if (cell->neighbor(f)->is_active())
+          function(f, cell->neighbor(f)->active_cell_index());
+        else
+          for (unsigned int s = 0; s < cell->face(f)->n_children(); ++s)
+            function(
+              f, cell->neighbor_child_on_subface(f, s)->active_cell_index());
+      }
   }
 
 
@@ -93,22 +161,20 @@ namespace Impoint
   void GhostPenalty<dim>::share_contents()
   {
     const auto &grid = active.basis().grid();
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
+      return;
     std::map<unsigned int, std::vector<CellId::binary_type>> questions;
     std::map<unsigned int, std::vector<unsigned int>>        asked;
     for (unsigned int k = 0; k < active.n_cells(); ++k)
-      {
-        const auto &cell = grid.cell(active.cell(k));
-        for (const unsigned int f : cell->face_indices())
-          if (!cell->at_boundary(f) && cell->neighbor(f)->is_active() &&
-              cell->neighbor(f)->is_ghost())
-            {
-              const auto &neighbor = cell->neighbor(f);
-              questions[neighbor->subdomain_id()].push_back(
-                neighbor->id().template to_binary<dim>());
-              asked[neighbor->subdomain_id()].push_back(
-                neighbor->active_cell_index());
-            }
-      }
+      for_neighbors(active.cell(k),
+                    [&](const unsigned int, const unsigned int n) {
+                      const auto &neighbor = grid.cell(n);
+                      if (!neighbor->is_ghost())
+                        return;
+                      questions[neighbor->subdomain_id()].push_back(
+                        neighbor->id().template to_binary<dim>());
+                      asked[neighbor->subdomain_id()].push_back(n);
+                    });
     std::map<unsigned int, std::vector<Content>> answers;
     for (const auto &question :
          Utilities::MPI::some_to_some(grid.communicator(), questions))
@@ -126,32 +192,34 @@ namespace Impoint
 
 
   /** Whether this rank links the own active cell @p c with its neighbour at
-   * face
-   * @p f: each face once. Of faces with hanging nodes the finer cells do. */
+   * @p n: each face once. Of faces with hanging nodes the finer cells do. */
   template <int dim>
   bool GhostPenalty<dim>::is_link(const unsigned int c,
-                                  const unsigned int f) const
+                                  const unsigned int n) const
   {
-    const auto        &cell     = active.basis().grid().cell(c);
-    const auto        &neighbor = cell->neighbor(f);
-    const unsigned int n        = neighbor->active_cell_index();
-    if (neighbor->level() == cell->level() &&
-        std::make_pair(cell->subdomain_id(), c) >
-          std::make_pair(neighbor->subdomain_id(), n))
+    const auto &cell     = active.basis().grid().cell(c);
+    const auto &neighbor = active.basis().grid().cell(n);
+    if (neighbor->level() > cell->level() ||
+        (neighbor->level() == cell->level() &&
+         std::make_pair(cell->subdomain_id(), c) >
+           std::make_pair(neighbor->subdomain_id(), n)))
       return false;
     return contents[n].filled >= 0 &&
-           std::min(contents[c].filled, contents[n].filled) < enough;
+           std::min(contents[c].filled, contents[n].filled) < enough &&
+           lower(contents[c].young, contents[n].young) > 0;
   }
 
 
 
-  /** Points of a kept grid fill what they filled at the start. */
+  /** Points of a kept grid fill what they filled at the start, and without a
+   * factor it counts only where they are. */
   template <int dim>
   bool GhostPenalty<dim>::contents_stay()
   {
-    if (!points.carried().keeps_grid)
+    if (!points.carried().keeps_grid &&
+        !(factor == 0. && points.equally_stiff()))
       return false;
-    std::vector<unsigned int> cells;
+    std::vector<unsigned int> cells = {active.n_material_cells()};
     for (unsigned int k = 0; k < active.n_cells(); ++k)
       cells.push_back(active.cell(k));
     last_cells.swap(cells);
@@ -179,43 +247,62 @@ namespace Impoint
   template <int dim>
   void GhostPenalty<dim>::find_faces()
   {
-    const auto &grid = active.basis().grid();
-    // the softer one holds enough; a cell without material has no say
-    const auto lower = [&](const double a, const double b) {
-      return a > 0 && b > 0 ? std::min(a, b) : std::max(a, b);
-    };
     std::vector<Face> before;
     before.swap(faces);
-    is_held.assign(active.n_cells(), false);
     for (unsigned int k = 0; k < active.n_cells(); ++k)
       {
-        const unsigned int c    = active.cell(k);
-        const auto        &cell = grid.cell(c);
-        for (const unsigned int f : cell->face_indices())
-          {
-            if (cell->at_boundary(f) || !cell->neighbor(f)->is_active())
-              continue;
-            is_held[k] |=
-              contents[cell->neighbor(f)->active_cell_index()].filled > 0;
-            if (!is_link(c, f))
-              continue;
-            const unsigned int n = cell->neighbor(f)->active_cell_index();
-            const double       h = 0.5 * (grid.volume(c) + grid.volume(n)) /
-                             cell->face(f)->measure();
-            faces.emplace_back();
-            faces.back().first  = c;
-            faces.back().second = n;
-            faces.back().stiffness =
-              factor * lower(contents[c].young, contents[n].young) / (h * h);
-            faces.back().density =
-              factor * lower(contents[c].density, contents[n].density);
-            // those of the same links stay, if no other link changes
-            const std::size_t l = faces.size() - 1;
-            if (l < before.size() && before[l].first == c &&
-                before[l].second == n)
-              faces.back().matrix.swap(before[l].matrix);
-          }
+        const unsigned int c = active.cell(k);
+        for_neighbors(c, [&](const unsigned int f, const unsigned int n) {
+          if (!is_link(c, n))
+            return;
+          faces.push_back(make_face(c, f, n));
+          // those of the same links stay, if no other link changes
+          const std::size_t l = faces.size() - 1;
+          if (l < before.size() && before[l].first == c &&
+              before[l].second == n)
+            faces.back().matrix.swap(before[l].matrix);
+        });
       }
+  }
+
+
+
+  template <int dim>
+  typename GhostPenalty<dim>::Face
+  GhostPenalty<dim>::make_face(const unsigned int c,
+                               const unsigned int f,
+                               const unsigned int n) const
+  {
+    const auto    &grid = active.basis().grid();
+    const Content &one = contents[c], &other = contents[n];
+    const double   h = 0.5 * (grid.volume(c) + grid.volume(n)) /
+                     grid.cell(c)->face(f)->measure();
+    Face face;
+    face.first    = c;
+    face.second   = n;
+    face.at_empty = std::min(one.filled, other.filled) == 0;
+    face.stiffness =
+      (factor == 0. && face.at_empty ? factor_of_empty : factor) *
+      lower(one.young, other.young) / (h * h);
+    face.density = factor * lower(one.density, other.density);
+    return face;
+  }
+
+
+
+  template <int dim>
+  void GhostPenalty<dim>::set_reached(const std::vector<unsigned int> &reached)
+  {
+    for (unsigned int k = active.n_material_cells(); k < active.n_cells(); ++k)
+      contents[active.cell(k)].reached =
+        std::binary_search(reached.begin(), reached.end(), active.cell(k));
+    share_contents();
+    for (Face &face : faces)
+      face.part = !face.at_empty || contents[face.first].reached ||
+                      contents[face.second].reached ?
+                    1. :
+                  points.carried().keeps_grid ? part_of_resting :
+                                                part_of_unreached;
   }
 
 
@@ -263,8 +350,8 @@ namespace Impoint
           std::fill(difference.begin(), difference.end(), 0.);
           subtract(face.first, 1., x);
           subtract(face.second, -1., x);
-          const double weight =
-            thickness * rule.weight(q) / rule_volume * grid.volume(c);
+          const double weight = points.carried().thickness * rule.weight(q) /
+                                rule_volume * grid.volume(c);
           for (unsigned int a = 0; a < n; ++a)
             for (unsigned int b = 0; b < n; ++b)
               face.matrix[a * n + b] += weight * difference[a] * difference[b];
@@ -276,8 +363,11 @@ namespace Impoint
   template <int dim>
   void GhostPenalty<dim>::add(const unsigned int l, CellSystem &system) const
   {
-    add_for_components<dim>(
-      faces[l].matrix, faces[l].stiffness, system.u, 1., system);
+    add_for_components<dim>(faces[l].matrix,
+                            faces[l].part * faces[l].stiffness,
+                            system.u,
+                            1.,
+                            system);
   }
 
 

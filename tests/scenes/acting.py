@@ -16,7 +16,7 @@ def check_late_boundary():
     kept = [*QUIET, "Grid/Refinements = 0", "Grid/Shift = -0.25, -1.15",
             "Bodies/beam/Mesh/Refinements = 0", "Grid/Reset = never"]
     late = [*kept, "Boundaries/Names = clamp, late",
-            "Boundaries/late/Polyline = 0 -0.4; 8 -0.4", "Boundaries/late/Rule = cut"]
+            "Boundaries/late/Polyline = 0 -0.2; 8 -0.2", "Boundaries/late/Rule = cut"]
     alone, resting, acting = (
         run_scene(BEAM, "run", settings)["results"]["tip u_y"]["value"]
         for settings in (kept, [*late, "Boundaries/late/Active from = 0.9"], late))

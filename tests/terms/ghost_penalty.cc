@@ -11,8 +11,9 @@
 template <int dim>
 void test(const std::string &cells, const std::string &basis)
 {
-  TermScene<dim>            scene(cells, "Grid/Basis = " + basis);
-  GhostPenalty<dim>         ghost(scene.active, *scene.points, 0.3, 1.);
+  TermScene<dim>    scene(cells, "Grid/Basis = " + basis);
+  GhostPenalty<dim> ghost(scene.active, *scene.points);
+  ghost.set_factor(0.3);
   std::vector<unsigned int> all(scene.grid.n_cells());
   for (unsigned int c = 0; c < all.size(); ++c)
     all[c] = c;

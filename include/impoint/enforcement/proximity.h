@@ -27,8 +27,18 @@ namespace Impoint
     template <int dim>
     std::vector<Proximity> distances(const BoundaryParticles<dim> &boundary,
                                      const std::vector<char>      &closed,
-                                     const ActiveNodes<dim>       &active,
+                                     const BackgroundGrid<dim>    &grid,
                                      const MaterialPoints<dim>    &points);
+
+    /** The same of @p particles alone, at @p places (of all particles). */
+    template <int dim>
+    std::vector<Proximity>
+    distances_of(const BoundaryParticles<dim>    &boundary,
+                 const std::vector<unsigned int> &particles,
+                 const std::vector<Point<dim>>   &places,
+                 const std::vector<char>         &closed,
+                 const BackgroundGrid<dim>       &grid,
+                 const MaterialPoints<dim>       &points);
 
     /**
      * Throws StepFailed, on all ranks, if a material point would pass one of
@@ -38,7 +48,7 @@ namespace Impoint
     template <int dim>
     void
     check_crossing(const Methods<dim>                         &methods,
-                   const ActiveNodes<dim>                     &active,
+                   const BackgroundGrid<dim>                  &grid,
                    const MaterialPoints<dim>                  &points,
                    const std::vector<Point<dim>>              &new_places,
                    const std::vector<std::vector<Point<dim>>> &wall_places);

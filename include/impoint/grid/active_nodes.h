@@ -41,19 +41,25 @@ namespace Impoint
   class ActiveNodes
   {
   public:
+    /** Those that take part of cells without material, increasing. */
+    using Selection = std::function<std::vector<unsigned int>(
+      const std::vector<unsigned int> &)>;
+
     explicit ActiveNodes(const Basis<dim> &basis);
 
     /**
      * Makes active: @p material_cells and those of @p boundary_cells that
      * share a node with a material cell of any rank (both: own cells,
-     * increasing, without duplicates; a cell may be in both). Then asks @p
-     * find_links, which may look at position() and is called on all ranks.
+     * increasing, without duplicates; a cell may be in both); of the latter
+     * only those that @p select returns. Then asks @p find_links, which may
+     * look at position(). Both are called on all ranks.
      * Collective. Returns whether anything changed on any rank since the last
      * call.
      */
     bool reinit(const std::vector<unsigned int> &material_cells,
                 const std::vector<unsigned int> &boundary_cells,
-                const std::function<Links()>    &find_links = nullptr);
+                const std::function<Links()>    &find_links = nullptr,
+                const Selection                 &select     = nullptr);
 
     /** Active cells: the material cells in their order, then boundary cells
      * without material. */
@@ -160,8 +166,8 @@ namespace Impoint
       unsigned int group, node;
     };
 
-    void activate(const std::vector<unsigned int> &material_cells,
-                  const std::vector<unsigned int> &boundary_cells);
+    void find_neighbors();
+    void activate(const std::vector<unsigned int> &without_material);
     void number();
     void list_groups_of_nodes();
     void list_nodes_of_links();
@@ -172,6 +178,7 @@ namespace Impoint
 
     const Basis<dim>         &functions;
     std::vector<unsigned int> last_material, last_boundary;
+    std::vector<unsigned int> neighbors; // boundary cells without material
     bool                      fresh = true;
     NodeSet                   marks; // of the basis' nodes; empty between calls
 

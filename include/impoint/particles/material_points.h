@@ -139,6 +139,11 @@ namespace Impoint
     {
       return stiffest_material().young();
     }
+    /** Whether all materials have this modulus. */
+    bool equally_stiff() const
+    {
+      return all_equally_stiff;
+    }
 
     bool small_strain() const
     {
@@ -160,9 +165,10 @@ namespace Impoint
     Slots                                  slot;
     CarriedState                           carried_state;
     std::vector<std::shared_ptr<Material>> materials;
-    bool                                   all_small_strain = true;
-    bool                                   all_constant     = true;
-    bool                                   all_symmetric    = true;
+    bool                                   all_small_strain  = true;
+    bool                                   all_constant      = true;
+    bool                                   all_symmetric     = true;
+    bool                                   all_equally_stiff = true;
   };
 
   /**

@@ -42,11 +42,20 @@ namespace Impoint
     void add_term(std::unique_ptr<Term<dim>> term);
 
     /** Holds what is filled in part only; see GhostPenalty. */
-    void add_ghost_penalty(const double factor, const double thickness);
+    void set_ghost_penalty(const double factor)
+    {
+      ghost_penalty.set_factor(factor);
+    }
 
     /** What reaches beyond a cell in a step from @p start to @p end, of the
      * cells that are active now. Collective. */
     Links find_links(const double start, const double end);
+
+    /** See GhostPenalty. */
+    void set_reached(const std::vector<unsigned int> &cells)
+    {
+      ghost_penalty.set_reached(cells);
+    }
 
     /** After the set of active cells or links changed. */
     void new_active_set();
@@ -98,7 +107,9 @@ namespace Impoint
                         const bool         tangent_wanted,
                         const Part         part,
                         const Function    &contribute);
-    void   assemble_ghost_penalty(const Vector &u, const bool tangent_wanted);
+    void   assemble_ghost_penalty(const Vector &u,
+                                  const bool    tangent_wanted,
+                                  const Part    part);
     void   accelerations_of(const unsigned int k);
     double add_inertia(const Vector &u, const bool tangent_wanted);
     void   scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
@@ -112,7 +123,7 @@ namespace Impoint
     std::vector<char>                       in_contact; // per active cell
     ConsistentMass<dim>                     consistent_mass;
     std::vector<std::unique_ptr<Term<dim>>> terms;
-    std::unique_ptr<GhostPenalty<dim>>      ghost_penalty; // or null
+    GhostPenalty<dim>                       ghost_penalty;
 
     // of the call of assemble() at work
     LinearProblem<dim> *problem = nullptr;

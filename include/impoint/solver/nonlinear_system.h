@@ -36,13 +36,19 @@ namespace Impoint
     void add_term(std::unique_ptr<Term<dim>> term);
 
     /** See Assembly. */
-    void add_ghost_penalty(const double factor, const double thickness)
+    void set_ghost_penalty(const double factor)
     {
-      assembly.add_ghost_penalty(factor, thickness);
+      assembly.set_ghost_penalty(factor);
     }
     Links find_links(const double start, const double end)
     {
       return assembly.find_links(start, end);
+    }
+
+    /** See GhostPenalty. */
+    void set_reached(const std::vector<unsigned int> &cells)
+    {
+      assembly.set_reached(cells);
     }
 
     /** After the set of active cells or links changed. */
@@ -81,6 +87,9 @@ namespace Impoint
      * F stores beside 1. Collective.
      */
     double round_off(const Vector &u) const;
+
+    /** What a place, at the size of a cell, cannot tell from none [m]. */
+    double smallest_displacement() const;
 
     /**
      * Newton's correction for the last tangent and residual, at @p u. @p first

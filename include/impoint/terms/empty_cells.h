@@ -32,21 +32,6 @@ namespace Impoint
     /** After the set of active cells changed. */
     void reinit();
 
-    /** No cell has a boundary that acts, as in a grid that is kept before one
-     * does: next to no stiffness. */
-    void rest();
-
-    bool rests(const unsigned int k) const;
-
-    /** Active cell @p k resists as a whole one. */
-    void fill(const unsigned int k);
-
-    /** Only the part of active cell @p k within @p half_space can be material
-     * whose points happen to lie beyond: as much stiffness, but at least a
-     * tenth of the cell's. A whole cell would make the support too stiff.
-     * Nothing changes at a corner, where the normal is short. */
-    void bound(const unsigned int k, const HalfSpace<dim> &half_space);
-
     /** @p k: an active cell beyond the material cells. */
     void add(const unsigned int k, CellSystem &system) const;
 
@@ -74,7 +59,6 @@ namespace Impoint
     double                              young;
     bool                                linear;
     std::vector<std::vector<Gradients>> points; // per empty cell
-    std::vector<double>                 parts;  // of its stiffness
   };
 } // namespace Impoint
 

@@ -27,19 +27,34 @@ namespace Impoint
    * knows; so its forces do not pile up where it is reset every step. In
    * dynamics with consistent mass the same with rho in the place of E / h^2
    * acts on accelerations.
+   *
+   * Active cells without material, which only a boundary makes active (L
+   * section 3.6), continue their neighbours' functions in this way whatever the
+   * factor: what the boundary holds there is the material as it would go on,
+   * and a boundary longer than the body asks nothing of a body that deforms
+   * evenly. Forces and moments are in balance, also about the places that nodes
+   * have moved to.
    */
   template <int dim>
   class GhostPenalty
   {
   public:
-    /** @p thickness: of the bodies, 1 in 3D. */
     GhostPenalty(const ActiveNodes<dim>    &active,
-                 const MaterialPoints<dim> &points,
-                 const double               factor,
-                 const double               thickness);
+                 const MaterialPoints<dim> &points);
+
+    /** @p value: of Young's modulus; 0, as at the start: holds nothing but
+     * cells without material. */
+    void set_factor(const double value)
+    {
+      factor = value;
+    }
 
     /** Appends the faces to act on. Collective. */
     void find_links(Links &links);
+
+    /** After find_links(). @p reached: cells without material where a boundary
+     * has material to act on, increasing. Collective. */
+    void set_reached(const std::vector<unsigned int> &reached);
 
     /** After the nodes of the links were numbered. */
     void new_active_set();
@@ -55,10 +70,16 @@ namespace Impoint
       return active.link(first_link + l);
     }
 
-    /** Whether a neighbour with material holds active cell @p k. */
+    /** Whether active cell @p k continues some material. */
     bool holds(const unsigned int k) const
     {
-      return is_held[k];
+      return contents[active.cell(k)].young > 0;
+    }
+
+    /** Whether link @p l holds a cell without material. */
+    bool at_empty(const unsigned int l) const
+    {
+      return faces[l].at_empty;
     }
 
     void add(const unsigned int l, CellSystem &system) const;
@@ -74,20 +95,23 @@ namespace Impoint
     struct Content
     {
       double filled  = 0; // part of its volume, now
-      double young   = 0; // [Pa], 0 without material
+      double young   = 0; // [Pa], without material that of what it continues
       double density = 0; // [kg/m3], 0 without material
+      bool   reached = false;
 
       template <class Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &filled &young &density;
+        archive &filled &young &density &reached;
       }
     };
 
     struct Face
     {
       unsigned int first, second; // cells
+      bool         at_empty;      // one is without material
       double       stiffness;     // factor E / h^2
+      double       part = 1;      // of it that acts now
       double       density;       // factor rho
 
       std::vector<double> matrix; // n x n, the same for all components
@@ -98,18 +122,23 @@ namespace Impoint
     void    find_contents();
     void    set_content(const unsigned int c, const Content &value);
     void    share_contents();
-    bool    is_link(const unsigned int c, const unsigned int f) const;
-    void    find_faces();
-    void    integrate(const unsigned int l);
+    void    continue_material();
+    template <typename Function>
+    void for_neighbors(const unsigned int c, const Function &function) const;
+    bool is_link(const unsigned int c, const unsigned int n) const;
+    Face make_face(const unsigned int c,
+                   const unsigned int f,
+                   const unsigned int n) const;
+    void find_faces();
+    void integrate(const unsigned int l);
 
     const ActiveNodes<dim>    &active;
     const MaterialPoints<dim> &points;
-    const double               factor, thickness;
+    double                     factor = 0;
     std::vector<Face>          faces;
-    std::vector<Content>       contents;       // of the grid's cells
-    std::vector<unsigned int>  known;          // cells whose content is set
-    std::vector<unsigned int>  last_cells;     // that were active
-    std::vector<char>          is_held;        // per active cell
+    std::vector<Content>       contents;   // of the grid's cells
+    std::vector<unsigned int>  known;      // cells whose content is set
+    std::vector<unsigned int>  last_cells; // active; their number with material
     unsigned int               first_link = 0; // among all links
   };
 } // namespace Impoint
