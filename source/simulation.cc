@@ -14,6 +14,36 @@
 
 namespace Impoint
 {
+  namespace
+  {
+    std::string as_used(const ParameterFile &file)
+    {
+      std::ostringstream text;
+      file.print_used(text);
+      return text.str();
+    }
+
+
+
+    OutputFolder checked_folder(const ParameterFile &file,
+                                const RunOptions    &options,
+                                const MPI_Comm       communicator)
+    {
+      const bool         given = !options.output_folder.empty();
+      const OutputFolder folder(given ? options.output_folder :
+                                        file.absolute("Output/Folder"),
+                                options.overwrite || options.resume,
+                                communicator,
+                                options.resume ? "option --resume" :
+                                given          ? "option --output" :
+                                                 file.place("Output/Folder"));
+      folder.check();
+      return folder;
+    }
+  } // namespace
+
+
+
   template <int dim>
   Simulation<dim>::Simulation(ParameterFile    &file,
                               const Scene<dim> &scene,
@@ -24,13 +54,8 @@ namespace Impoint
     , failures(communicator)
     , file(file)
     , scene(scene)
-    , folder(options.output_folder.empty() ? file.absolute("Output/Folder") :
-                                             options.output_folder,
-             options.overwrite || options.resume,
-             comm,
-             options.resume                ? "option --resume" :
-             options.output_folder.empty() ? file.place("Output/Folder") :
-                                             "option --output")
+    , used_parameters(as_used(file))
+    , folder(checked_folder(file, options, comm))
     , terminal(scene.output.verbosity, comm)
     , grid(file, scene.grid, comm)
     , basis(grid, file, scene.grid)
@@ -76,6 +101,7 @@ namespace Impoint
         for (const auto &measurement : measurements)
           measurement->start(state);
       }
+    columns = names_of_columns();
     seconds.setup += seconds_since(start_of_run);
   }
 
@@ -98,128 +124,7 @@ namespace Impoint
                                    methods[m++]->particles(),
                                    *points,
                                    grid))
-          terminal.warning(doubt);
-  }
-
-
-
-  template <int dim>
-  void Simulation<dim>::run()
-  {
-    begin();
-    try
-      {
-        const StopSignals signals;
-        step_through(signals);
-      }
-    catch (const RunFailed &failure)
-      {
-        // What follows is collective.
-        if (!all_ranks_arrive(*failures))
-          throw;
-        keep_last_good_state();
-        end("failed", failure.what());
-        throw;
-      }
-    end("done", "");
-  }
-
-
-
-  template <int dim>
-  void Simulation<dim>::begin()
-  {
-    if (resumed)
-      {
-        folder.check();
-        history.resume(counters.steps);
-      }
-    else
-      {
-        ScopedSeconds timer(seconds.output);
-        folder.create();
-        std::ostringstream parameters;
-        file.print_used(parameters);
-        folder.write("parameters.prm", parameters.str());
-      }
-    activate(time, time + step_size.size);
-    // A run that had come to its end counts no pattern of a step that follows.
-    if (resumed && scene.time.is_over(time))
-      counters.patterns = patterns_before;
-    ScopedSeconds timer(seconds.output);
-    fill_record();
-    terminal.header(run_record);
-    if (resumed)
-      {
-        std::ostringstream text;
-        text << "goes on after step " << counters.steps << " at time " << time
-             << " s";
-        terminal.message(text.str());
-      }
-    else
-      picture();
-  }
-
-
-
-  /** Steps of the given size to the end; halved where one fails, and doubled
-   * again after two that did not. */
-  template <int dim>
-  void Simulation<dim>::step_through(const StopSignals &signals)
-  {
-    const double given = scene.time.step;
-    const double end   = scene.time.end;
-    while (!scene.time.is_over(time))
-      {
-        // Steps end on multiples of the given size, without a tiny last one.
-        const bool   rests = scene.time.rests_after(time);
-        const double left  = (rests ? scene.time.dynamic_from : end) - time;
-        const double now =
-          left < step_size.size * (1. + 1e-9) ? left : step_size.size;
-        try
-          {
-            advance(now);
-          }
-        catch (const StepFailed &failure)
-          {
-            halve(now, failure);
-            continue;
-          }
-        if (++step_size.n_good >= 2 && step_size.size < given)
-          step_size = {std::min(2. * step_size.size, given), 0};
-
-        bool stop = signals.arrived();
-        if (checkpoint_is_due(stop))
-          write_checkpoint();
-        if (stop && !scene.time.is_over(time))
-          throw RunFailed("The run was told to stop by a signal, after step " +
-                          std::to_string(counters.steps) +
-                          "; 'impoint --resume " + folder.path() + "' goes on");
-      }
-  }
-
-
-
-  template <int dim>
-  void Simulation<dim>::halve(const double failed, const StepFailed &failure)
-  {
-    std::string reason = failure.what();
-    reason.erase(reason.find_last_not_of(". ") + 1);
-    const std::string text = of_step(failed) + reason;
-    if (constant_load)
-      throw RunFailed(text +
-                      ". Smaller steps would not help: no load depends on t. "
-                      "Let it grow with time, e.g. Body force = 0; -9.81 * t");
-    ++counters.halved_steps;
-    step_size = {0.5 * failed, 0};
-    if (step_size.size < scene.time.smallest * scene.time.step)
-      {
-        step_size = {scene.time.step, 0}; // of a run that goes on from here
-        throw RunFailed(text +
-                        ". Steps were halved down to the smallest ('Smallest "
-                        "step' in section 'Time')");
-      }
-    terminal.detail(text + "; halved");
+          warn(doubt);
   }
 
 
@@ -370,7 +275,7 @@ namespace Impoint
         measurement->follow(before, u);
         const std::string text = measurement->take_warning();
         if (!text.empty())
-          terminal.warning(text);
+          warn(text);
       }
     {
       ScopedSeconds timer(seconds.update);

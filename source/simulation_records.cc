@@ -3,13 +3,13 @@
 #include <impoint/boundary_forces.h>
 #include <impoint/history_row.h>
 #include <impoint/output/machine.h>
-#include <impoint/output/summary.h>
 #include <impoint/particles/stored_particles.h>
 #include <impoint/setup_checks.h>
 #include <impoint/simulation.h>
 #include <impoint/solver/stored_nodes.h>
 
 #include <iomanip>
+#include <set>
 #include <sstream>
 
 namespace Impoint
@@ -19,6 +19,42 @@ namespace Impoint
   {
     return {
       *points, methods, active, time, last_step, forces, newton->residuals()};
+  }
+
+
+
+  /** Those of history.csv; throws InputError if one occurs twice there or in
+   * the results, of which the last would replace the others. */
+  template <int dim>
+  std::vector<std::string> Simulation<dim>::names_of_columns() const
+  {
+    std::set<std::string> taken;
+    const auto take = [&](const std::string &name, const std::string &place) {
+      if (!taken.insert(name).second)
+        throw file.error("Measurements/Names",
+                         "the name '" + name + "' occurs twice in " + place,
+                         "Give what brings it about, a measurement or a "
+                         "boundary, another name.");
+    };
+    std::vector<Result> results;
+    for (const auto &measurement : measurements)
+      measurement->results(results);
+    for (const auto &result : results)
+      take(result.name, "the results");
+
+    auto unused      = state();
+    unused.residuals = {0.};
+    unused.forces.clear();
+    for (const auto &boundary : scene.boundaries)
+      unused.forces.push_back({boundary.name, {}, {}});
+    taken.clear();
+    std::vector<std::string> names;
+    for (const auto &column : history_row(unused, counters, 0, measurements))
+      {
+        take(column.first, "history.csv");
+        names.push_back(column.first);
+      }
+    return names;
   }
 
 
@@ -53,6 +89,15 @@ namespace Impoint
 
 
   template <int dim>
+  void Simulation<dim>::warn(const std::string &text)
+  {
+    run_record.warnings.push_back(text);
+    terminal.warning(text);
+  }
+
+
+
+  template <int dim>
   void Simulation<dim>::picture()
   {
     if (scene.output.every == 0)
@@ -61,6 +106,7 @@ namespace Impoint
     for (const auto &method : methods)
       boundaries.push_back(&method->particles());
     pictures.write(time, *points, boundaries, active, u);
+    pictured_step = counters.steps;
   }
 
 
@@ -94,18 +140,6 @@ namespace Impoint
 
 
 
-  /** What a message on the next step, of length @p dt, begins with. */
-  template <int dim>
-  std::string Simulation<dim>::of_step(const double dt) const
-  {
-    std::ostringstream text;
-    text << "step " << counters.steps + 1 << " at time " << time
-         << " s with a step of " << dt << " s: ";
-    return text.str();
-  }
-
-
-
   template <int dim>
   void Simulation<dim>::warn_of_lost_loads()
   {
@@ -125,26 +159,8 @@ namespace Impoint
              << "' have no material in their cells: the load there is lost "
                 "(step "
              << counters.steps + 1 << ")";
-        terminal.warning(text.str());
+        warn(text.str());
       }
-  }
-
-
-
-  /** Whether to write a checkpoint now; sets @p stop if any rank was told to
-   * stop, or to. Collective. */
-  template <int dim>
-  bool Simulation<dim>::checkpoint_is_due(bool &stop) const
-  {
-    const auto  &output  = scene.output;
-    const double minutes = seconds_since(last_checkpoint) / 60.;
-    const bool   in_time =
-      output.checkpoint_minutes > 0 && minutes >= output.checkpoint_minutes;
-    // A run that stops writes one anyway.
-    const int wanted = Utilities::MPI::max(stop ? 2 : (in_time ? 1 : 0), comm);
-    stop             = wanted == 2;
-    return wanted == 1 || (output.checkpoint_every > 0 &&
-                           counters.steps % output.checkpoint_every == 0);
   }
 
 
@@ -164,6 +180,7 @@ namespace Impoint
     for (const auto &measurement : measurements)
       measurement->save_or_load(archive);
     pictures.save_or_load(archive);
+    archive &run_record.warnings &pictured_step;
   }
 
 
@@ -182,7 +199,7 @@ namespace Impoint
   {
     ScopedSeconds timer(seconds.output);
     seconds.total = earlier_seconds + seconds_since(start_of_run);
-    StateArchive of_run, particles, piece;
+    StateArchive of_run, particles;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       save_or_load(of_run);
     store_particles(*points, grid, particles);
@@ -194,9 +211,10 @@ namespace Impoint
     if (scene.grid.is_kept() && has_moved())
       for (Vector *vector : inertia.carried())
         store_nodes(active, *vector, particles);
-    std::string run = of_run.bytes(), rest = particles.bytes();
-    piece &run &rest;
-    Impoint::write_checkpoint(folder, counters.steps, piece.bytes());
+    Impoint::write_checkpoint(folder,
+                              counters.steps,
+                              of_run.bytes(),
+                              particles.bytes());
     solver_starts_anew = true;
     last_checkpoint    = std::chrono::steady_clock::now();
   }
@@ -204,80 +222,37 @@ namespace Impoint
 
 
   template <int dim>
-  void Simulation<dim>::resume(const StoredState &stored)
+  void Simulation<dim>::resume(StoredState stored)
   {
+    StateArchive of_run(std::move(stored.run));
+    save_or_load(of_run);
     for (const auto &file_name : stored.damaged)
-      terminal.warning("The checkpoint '" + file_name +
-                       "' is damaged: going on from an older one.");
-    std::vector<StateArchive> particles;
-    for (unsigned int rank = 0; rank < stored.pieces.size(); ++rank)
-      {
-        StateArchive piece(stored.pieces[rank]);
-        std::string  run, rest;
-        piece &run  &rest;
-        particles.emplace_back(std::move(rest));
-        StateArchive of_run(std::move(run));
-        if (rank == 0)
-          save_or_load(of_run);
-      }
+      warn("The checkpoint '" + file_name +
+           "' is damaged: going on from an older one.");
     earlier_seconds          = seconds.total;
     linear_iterations_before = counters.linear_iterations;
     patterns_before          = counters.patterns;
 
     const OwnCells cells = own_cells(grid);
-    restore_particles(particles, cells, comm, *points);
+    restore_particles(stored.particles, cells, comm, *points);
     for (const auto &method : methods)
       {
-        for (auto &archive : particles)
+        stored.particles.for_each([&](StateArchive &archive) {
           archive.tag(method->particles().name());
-        restore_particles(particles, cells, comm, method->particles());
+        });
+        restore_particles(stored.particles, cells, comm, method->particles());
       }
     if (scene.grid.is_kept() && has_moved())
       {
         activate(time, time + step_size.size);
         inertia.project(active, *points, step_size.size);
         for (Vector *vector : inertia.carried())
-          restore_nodes(particles, cells, active, *vector);
+          restore_nodes(stored.particles, cells, active, *vector);
         inertia.set_carried();
       }
   }
 
 
-
-  /** A checkpoint of a run that fails, unless there is one of this step or it
-   * fails amid an update. */
-  template <int dim>
-  void Simulation<dim>::keep_last_good_state()
-  {
-    try
-      {
-        if (is_whole && !solver_starts_anew)
-          write_checkpoint();
-      }
-    catch (const RunFailed &failure)
-      {
-        terminal.warning(failure.what());
-      }
-  }
-
-
-
-  template <int dim>
-  void Simulation<dim>::end(const std::string &status,
-                            const std::string &message)
-  {
-    seconds.total = earlier_seconds + seconds_since(start_of_run);
-    fill_record();
-    run_record.status  = status;
-    run_record.message = message;
-    run_record.results.clear();
-    // Before the first step nothing has been measured.
-    if (counters.steps > 0)
-      for (const auto &measurement : measurements)
-        measurement->results(run_record.results);
-    write_summary(run_record, folder);
-    terminal.finish(run_record, folder.path());
-  }
 
   /** What the boundaries did in the step: in the order of the scene, summed
    * over the ranks. */

@@ -55,6 +55,7 @@ namespace Impoint
     void        begin();
     void        step_through(const StopSignals &signals);
     std::string of_step(const double dt) const;
+    RunStopped  told_to_stop() const;
     void        halve(const double failed, const StepFailed &failure);
     void        advance(const double dt);
     void        begin_step(const double dt, const double end);
@@ -62,6 +63,7 @@ namespace Impoint
     void        find_new_places();
     void        commit(const double dt);
     void        sum_forces();
+    void        warn(const std::string &text);
     void        warn_of_lost_loads();
     void        record();
     void        picture();
@@ -70,33 +72,36 @@ namespace Impoint
     bool        checkpoint_is_due(bool &stop) const;
     void        write_checkpoint();
     void        save_or_load(StateArchive &archive);
-    void        resume(const StoredState &stored);
+    void        resume(StoredState stored);
     void        keep_last_good_state();
     void        end(const std::string &status, const std::string &message);
 
     Measurements::State<dim> state() const;
+    std::vector<std::string> names_of_columns() const;
 
-    const std::chrono::steady_clock::time_point                  start_of_run;
-    MPI_Comm                                                     comm;
-    Utilities::MPI::DuplicatedCommunicator                       failures;
-    ParameterFile                                               &file;
-    const Scene<dim>                                            &scene;
-    Counters                                                     counters;
-    Seconds                                                      seconds;
-    OutputFolder                                                 folder;
-    Terminal                                                     terminal;
-    BackgroundGrid<dim>                                          grid;
-    Basis<dim>                                                   basis;
-    ActiveNodes<dim>                                             active;
-    std::vector<BodyLoad<dim>>                                   body_loads;
-    std::unique_ptr<MaterialPoints<dim>>                         points;
-    EndStates<dim>                                               end_states;
-    Enforcement::Conforming<dim>                                 conforming;
-    typename NonlinearSystem<dim>::Methods                       methods;
-    Inertia<dim>                                                 inertia;
-    std::unique_ptr<NonlinearSystem<dim>>                        system;
-    std::unique_ptr<Newton<dim>>                                 newton;
+    const std::chrono::steady_clock::time_point start_of_run;
+    MPI_Comm                                    comm;
+    Utilities::MPI::DuplicatedCommunicator      failures;
+    ParameterFile                              &file;
+    const Scene<dim>                           &scene;
+    Counters                                    counters;
+    Seconds                                     seconds;
+    const std::string                           used_parameters;
+    OutputFolder                                folder;
+    Terminal                                    terminal;
+    BackgroundGrid<dim>                         grid;
+    Basis<dim>                                  basis;
+    ActiveNodes<dim>                            active;
+    std::vector<BodyLoad<dim>>                  body_loads;
+    std::unique_ptr<MaterialPoints<dim>>        points;
+    EndStates<dim>                              end_states;
+    Enforcement::Conforming<dim>                conforming;
+    typename NonlinearSystem<dim>::Methods      methods;
+    Inertia<dim>                                inertia;
+    std::unique_ptr<NonlinearSystem<dim>>       system;
+    std::unique_ptr<Newton<dim>>                newton;
     std::vector<std::unique_ptr<Measurements::Measurement<dim>>> measurements;
+    std::vector<std::string>                                     columns;
     HistoryWriter                                                history;
     Pictures<dim>                                                pictures;
 
@@ -108,6 +113,7 @@ namespace Impoint
     const bool        resumed, constant_load;
     std::size_t       linear_iterations_before = 0; // the last step
     std::size_t       patterns_before          = 0; // the resumed run
+    std::size_t       pictured_step            = 0; // the last one
     std::vector<bool> told_of_lost_load;            // per method
     std::chrono::steady_clock::time_point         last_checkpoint;
     double                                        earlier_seconds = 0;

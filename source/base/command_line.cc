@@ -1,6 +1,7 @@
 #include <impoint/base/command_line.h>
 #include <impoint/base/exceptions.h>
 #include <impoint/base/on_all_ranks.h>
+#include <impoint/base/stop_signals.h>
 #include <impoint/base/words.h>
 
 #include <deal.II/base/exceptions.h>
@@ -73,6 +74,10 @@ namespace Impoint
       catch (const InputError &error)
         {
           return {1, error.what()};
+        }
+      catch (const RunStopped &stop)
+        {
+          return {2, stop.what()};
         }
       catch (const RunFailed &error)
         {

@@ -301,9 +301,17 @@ namespace Impoint
           out << indent() << "# " << on_one_line(entry.documentation) << " ["
               << Words::allowed(entry.pattern) << "; default '"
               << entry.default_value << "']\n";
+        const std::string text =
+          made_absolute ? absolute(entry.path) : value(entry.path);
+        if (made_absolute && (text.find_first_of("#\n") != std::string::npos ||
+                              Words::trim(text) != text ||
+                              (!text.empty() && text.back() == '\\')))
+          throw error(entry.path,
+                      "no scene file can hold the path '" + text + "'",
+                      "Use folders and files without '#', and without blanks, "
+                      "line breaks or '\\' at the end.");
         out << indent() << "set " << Words::last_part(entry.path) << " = "
-            << (made_absolute ? absolute(entry.path) : value(entry.path))
-            << '\n';
+            << text << '\n';
       }
     close(0);
   }

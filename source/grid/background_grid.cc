@@ -73,12 +73,22 @@ namespace Impoint
     const Expression<dim> where(file, parameters.section + "/Refine where", 1);
     for (unsigned int i = 0; i < parameters.refine_times; ++i)
       {
+        double more = 0;
         on_all_ranks(comm, [&]() {
           for (const auto &cell : mesh->active_cell_iterators())
             if (cell->is_locally_owned() &&
                 where.value(cell->center(), 0, 0) > 0)
-              cell->set_refine_flag();
+              {
+                cell->set_refine_flag();
+                more += cell->reference_cell().n_isotropic_children() - 1.;
+              }
         });
+        if (mesh->n_global_active_cells() + Utilities::MPI::sum(more, comm) >
+            std::ldexp(1., 31))
+          throw file.error(parameters.section + "/Refine times",
+                           "refined " + std::to_string(i + 1) +
+                             " times, the grid has more than 2^31 cells",
+                           "Refine less often, or fewer cells.");
         mesh->execute_coarsening_and_refinement();
       }
   }

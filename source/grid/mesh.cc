@@ -8,7 +8,10 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <iomanip>
+#include <sstream>
 
 namespace Impoint
 {
@@ -219,6 +222,28 @@ namespace Impoint
 
 
 
+    /** Refuses more cells than numbers of 32 bits count, before a mesh of that
+     * size is tried. */
+    template <int dim, int spacedim>
+    void check_refinements(const ParameterFile                &file,
+                           const MeshParameters               &parameters,
+                           const Triangulation<dim, spacedim> &coarse)
+    {
+      const double       n_coarse = coarse.n_active_cells();
+      const unsigned int most     = (31 - std::log2(n_coarse)) / dim;
+      if (parameters.refinements <= most)
+        return;
+      std::ostringstream n_cells;
+      n_cells << std::setprecision(2)
+              << std::ldexp(n_coarse, dim * parameters.refinements);
+      throw file.error(parameters.section + "/Refinements",
+                       std::to_string(parameters.refinements) +
+                         " refinements make " + n_cells.str() + " cells",
+                       "Set at most " + std::to_string(most) + ".");
+    }
+
+
+
     template <int dim, int spacedim>
     void make_simplices(const ParameterFile          &file,
                         const MeshParameters         &parameters,
@@ -237,6 +262,7 @@ namespace Impoint
         throw file.error(parameters.section + "/Cells",
                          "the mesh has triangles or tetrahedra already",
                          "Set 'as made'.");
+      check_refinements(file, parameters, source);
       source.refine_global(parameters.refinements);
       if (parameters.cells == wanted)
         split_into_simplices(source, mesh);
@@ -290,7 +316,10 @@ namespace Impoint
     if (parameters.split())
       make_simplices(file, parameters, mesh);
     else
-      generate_or_read(file, parameters, mesh);
+      {
+        generate_or_read(file, parameters, mesh);
+        check_refinements(file, parameters, mesh);
+      }
     if (parameters.distortion > 0)
       distort(file, parameters, mesh);
     move_mesh(Similarity<spacedim>(parameters), mesh);

@@ -79,8 +79,16 @@ namespace Impoint
         {
           results.push_back({labels[i], values[i]});
           if (references[i])
-            results.back().reference =
-              references[i]->value(Point<dim>(), time, 0);
+            try
+              {
+                results.back().reference =
+                  references[i]->value(Point<dim>(), time, 0);
+              }
+            catch (const RunFailed &failure)
+              {
+                results.back().warning =
+                  "'" + labels[i] + "' has no reference: " + failure.what();
+              }
         }
     }
 

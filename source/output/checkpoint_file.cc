@@ -1,16 +1,15 @@
 #include <impoint/base/on_all_ranks.h>
 #include <impoint/output/checkpoint_file.h>
 
+#include <boost/serialization/utility.hpp>
 #include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <optional>
 
 namespace Impoint
@@ -19,8 +18,9 @@ namespace Impoint
 
   namespace
   {
-    // The file: this line, of each rank the size of its piece and the piece,
-    // and the checksum of all that.
+    // The file: this line; of each rank the size of its piece and the piece,
+    // which is the run's and the particles' bytes, each after their number; the
+    // checksum of all that.
     const std::string first_line = "impoint checkpoint, format 1\n";
 
     using Number = std::uint64_t;
@@ -136,35 +136,101 @@ namespace Impoint
 
 
 
-    /** The pieces of a file, nothing if it is not complete. */
-    std::optional<std::vector<std::string>> read_pieces(const fs::path &path)
+    /** Reads a file from its start, a little at a time. */
+    class CheckpointReader
     {
-      std::ifstream     file(path, std::ios::binary);
-      const std::string all((std::istreambuf_iterator<char>(file)),
-                            std::istreambuf_iterator<char>());
-      const std::size_t start = first_line.size();
-      if (all.size() < start + sizeof(Number) ||
-          all.compare(0, start, first_line) != 0)
-        return {};
-      const std::size_t end = all.size() - sizeof(Number);
-      Checksum          checksum;
-      checksum.add(all.data(), end);
-      const auto number_at = [&](const std::size_t place) {
-        Number number;
-        std::memcpy(&number, all.data() + place, sizeof(number));
-        return number;
-      };
-      if (number_at(end) != checksum.value())
-        return {};
+    public:
+      explicit CheckpointReader(const std::string &path)
+        : file(path, std::ios::binary)
+        , path(path)
+      {
+        std::error_code ignored;
+        const auto      n_bytes = fs::file_size(path, ignored);
+        left                    = ignored ? 0 : n_bytes;
+      }
 
-      std::vector<std::string> pieces;
-      for (std::size_t place = start; place < end;)
+      bool starts_right()
+      {
+        std::string line(first_line.size(), ' ');
+        return take(line.data(), line.size()) && line == first_line;
+      }
+
+      /** The sum of all before it is at the end. */
+      bool ends_right()
+      {
+        const Number expected = checksum.value();
+        return number() == expected && left == 0;
+      }
+
+      bool has_pieces() const
+      {
+        return left > sizeof(Number);
+      }
+
+      Number number()
+      {
+        Number value = 0;
+        return take(reinterpret_cast<char *>(&value), sizeof(value)) ? value :
+                                                                       left + 1;
+      }
+
+      /** Passes over a number and as many bytes; nothing if there are less. */
+      std::optional<StoredPieces::Extent> skip()
+      {
+        const Number size = number();
+        if (size > left)
+          return {};
+        const StoredPieces::Extent extent(place, size);
+        for (Number rest = size; rest > 0;)
+          {
+            const Number n = std::min<Number>(rest, block.size());
+            if (!take(block.data(), n))
+              return {};
+            rest -= n;
+          }
+        return extent;
+      }
+
+    private:
+      bool take(char *bytes, const Number n)
+      {
+        if (n > left || !file.read(bytes, n))
+          return false;
+        checksum.add(bytes, n);
+        left -= n;
+        place += n;
+        return true;
+      }
+
+      std::ifstream     file;
+      const std::string path;
+      Number            place = 0, left = 0;
+      std::vector<char> block = std::vector<char>(1 << 20);
+      Checksum          checksum;
+    };
+
+
+
+    /** Where the run and the particles of each rank are in a file; nothing if
+     * it is not complete. */
+    std::vector<StoredPieces::Extent> find_parts(const std::string &path)
+    {
+      CheckpointReader                  file(path);
+      std::vector<StoredPieces::Extent> parts;
+      if (!file.starts_right())
+        return {};
+      while (file.has_pieces())
         {
-          const Number size = number_at(place);
-          pieces.push_back(all.substr(place + sizeof(size), size));
-          place += sizeof(size) + size;
+          const Number size = file.number();
+          const auto   run = file.skip(), particles = file.skip();
+          if (!run || !particles ||
+              size != 2 * sizeof(Number) + run->second + particles->second)
+            return {};
+          parts.insert(parts.end(), {*run, *particles});
         }
-      return pieces;
+      if (!file.ends_right())
+        return {};
+      return parts;
     }
   } // namespace
 
@@ -172,8 +238,17 @@ namespace Impoint
 
   void write_checkpoint(const OutputFolder &folder,
                         const std::size_t   step,
-                        const std::string  &piece)
+                        const std::string  &run,
+                        const std::string  &particles)
   {
+    std::string piece;
+    piece.reserve(2 * sizeof(Number) + run.size() + particles.size());
+    for (const std::string *part : {&run, &particles})
+      {
+        const Number size = part->size();
+        piece.append(reinterpret_cast<const char *>(&size), sizeof(size));
+        piece += *part;
+      }
     const fs::path    target = fs::path(folder.path()) / "checkpoint";
     const std::string path   = (target / file_of_step(step)).string();
     const std::string part   = path + ".part";
@@ -207,17 +282,19 @@ namespace Impoint
 
   StoredState read_newest_checkpoint(const OutputFolder &folder)
   {
-    StoredState state;
-    on_all_ranks(folder.communicator(), [&]() {
-      for (const auto &path :
+    const MPI_Comm                    comm = folder.communicator();
+    StoredState                       state;
+    std::string                       path;
+    std::vector<StoredPieces::Extent> parts;
+    on_root(comm, [&]() {
+      for (const auto &file :
            checkpoints_in(fs::path(folder.path()) / "checkpoint"))
         {
-          if (auto pieces = read_pieces(path))
-            {
-              state.pieces = std::move(*pieces);
-              return;
-            }
-          state.damaged.push_back(path.string());
+          path  = file.string();
+          parts = find_parts(path);
+          if (!parts.empty())
+            return;
+          state.damaged.push_back(path);
         }
       throw InputError(
         state.damaged.empty() ?
@@ -229,6 +306,14 @@ namespace Impoint
         "Run the scene from its beginning; 'Checkpoint every' and 'Checkpoint "
         "minutes' in section 'Output' say when checkpoints are written.");
     });
+    path          = Utilities::MPI::broadcast(comm, path);
+    parts         = Utilities::MPI::broadcast(comm, parts);
+    state.damaged = Utilities::MPI::broadcast(comm, state.damaged);
+    on_all_ranks(comm, [&]() { state.run = read_bytes(path, parts[0]); });
+    std::vector<StoredPieces::Extent> particles;
+    for (std::size_t i = 1; i < parts.size(); i += 2)
+      particles.push_back(parts[i]);
+    state.particles = StoredPieces(path, particles);
     return state;
   }
 } // namespace Impoint

@@ -1,7 +1,6 @@
 #include <impoint/base/on_all_ranks.h>
+#include <impoint/base/words.h>
 #include <impoint/output/history.h>
-
-#include <deal.II/base/exceptions.h>
 
 #include <cstdio>
 
@@ -38,30 +37,42 @@ namespace Impoint
 
 
 
-  void HistoryWriter::resume(const std::size_t n_rows)
+  void HistoryWriter::begin(const std::vector<std::string> &columns,
+                            const std::size_t               n_rows)
   {
-    if (n_rows > 0)
-      on_root(comm, [&]() { cut(n_rows); });
+    std::vector<std::string> names;
+    for (const auto &column : columns)
+      names.push_back(csv_name(column));
+    header = Words::join(names, ",");
+    on_root(comm, [&]() {
+      if (n_rows > 0)
+        return cut(n_rows);
+      file.open(path, std::ios::trunc);
+      put(header);
+    });
   }
 
 
 
   void HistoryWriter::cut(const std::size_t n_rows)
   {
+    const auto refuse = [&](const std::string &wrong) {
+      throw InputError("the history '" + path + "' has " + wrong,
+                       "option --resume",
+                       "Run the scene from its beginning.");
+    };
     std::ifstream old(path);
     std::string   kept, line;
     std::size_t   n_lines = 0;
     while (n_lines < n_rows + 1 && std::getline(old, line) && !old.eof())
       {
-        if (n_lines++ == 0)
-          header = line;
+        if (n_lines++ == 0 && line != header)
+          refuse("other columns than the scene");
         kept += line + '\n';
       }
     if (n_lines < n_rows + 1)
-      throw InputError("the history '" + path + "' has fewer rows than the " +
-                         std::to_string(n_rows) + " steps of the checkpoint",
-                       "option --resume",
-                       "Run the scene from its beginning.");
+      refuse("fewer rows than the " + std::to_string(n_rows) +
+             " steps of the checkpoint");
     old.close();
     write_atomically(path, kept);
     file.open(path, std::ios::app);
@@ -78,25 +89,22 @@ namespace Impoint
 
   void HistoryWriter::append(const HistoryRow &row)
   {
-    std::string names, values, separator;
-    for (const auto &[name, value] : row)
+    std::string values, separator;
+    for (const auto &column : row)
       {
-        names += separator + csv_name(name);
-        values += separator + csv_number(value);
+        values += separator + csv_number(column.second);
         separator = ",";
       }
-    if (header.empty())
-      {
-        header = names;
-        file.open(path, std::ios::trunc);
-        values = names + '\n' + values;
-      }
-    if (names != header)
-      throw RunFailed("the columns of '" + path + "' are not those of the run");
+    put(values);
+  }
 
-    // in one piece, so that no part of a row reaches the disk alone
-    values += '\n';
-    file.write(values.data(), values.size());
+
+
+  /** In one piece, so that no part of a line reaches the disk alone. */
+  void HistoryWriter::put(const std::string &line)
+  {
+    const std::string text = line + '\n';
+    file.write(text.data(), text.size());
     file.flush();
     if (!file)
       throw cannot_write(path);

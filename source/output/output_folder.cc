@@ -3,7 +3,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -46,6 +49,13 @@ namespace Impoint
       return false;
     }
 
+    /** Tries it: root may write to all folders, and yet not to /proc. */
+    bool can_be_written(const std::filesystem::path &folder)
+    {
+      std::string trial = (folder / ".impoint-XXXXXX").string();
+      return mkdtemp(trial.data()) != nullptr && rmdir(trial.c_str()) == 0;
+    }
+
     FolderProblem find_folder_problem(const std::string &path,
                                       const bool         overwrite)
     {
@@ -62,7 +72,7 @@ namespace Impoint
         return {"'" + path + "' cannot be a folder: '" + existing.string() +
                   "' is a file",
                 "Set another folder."};
-      if (access(existing.c_str(), W_OK | X_OK) != 0)
+      if (!can_be_written(existing))
         return {"'" + path + "' cannot be written: '" + existing.string() +
                   "' says: " + std::strerror(errno),
                 "Set a folder that you may write to."};
@@ -131,10 +141,21 @@ namespace Impoint
                        const MPI_Comm                                  comm,
                        const std::function<void(const std::string &)> &take)
   {
-    const int tag = 271;
+    const int         tag            = 271;
+    const std::size_t in_chunk       = 1 << 24; // MPI counts by int
+    std::uint64_t     n_bytes        = piece.size();
+    const auto        for_each_chunk = [&](const auto &action) {
+      for (std::uint64_t done = 0; done < n_bytes; done += in_chunk)
+        action(done,
+               static_cast<int>(
+                 std::min<std::uint64_t>(in_chunk, n_bytes - done)));
+    };
     if (Utilities::MPI::this_mpi_process(comm) != 0)
       {
-        MPI_Send(piece.data(), piece.size(), MPI_CHAR, 0, tag, comm);
+        MPI_Send(&n_bytes, 1, MPI_UINT64_T, 0, tag, comm);
+        for_each_chunk([&](const std::uint64_t done, const int n) {
+          MPI_Send(piece.data() + done, n, MPI_CHAR, 0, tag, comm);
+        });
         return;
       }
     take(piece);
@@ -142,13 +163,12 @@ namespace Impoint
     for (unsigned int rank = 1; rank < Utilities::MPI::n_mpi_processes(comm);
          ++rank)
       {
-        MPI_Status status;
-        int        size = 0;
-        MPI_Probe(rank, tag, comm, &status);
-        MPI_Get_count(&status, MPI_CHAR, &size);
-        received.resize(size);
-        MPI_Recv(
-          received.data(), size, MPI_CHAR, rank, tag, comm, MPI_STATUS_IGNORE);
+        MPI_Status *const none = MPI_STATUS_IGNORE;
+        MPI_Recv(&n_bytes, 1, MPI_UINT64_T, rank, tag, comm, none);
+        received.resize(n_bytes);
+        for_each_chunk([&](const std::uint64_t done, const int n) {
+          MPI_Recv(received.data() + done, n, MPI_CHAR, rank, tag, comm, none);
+        });
         take(received);
       }
   }

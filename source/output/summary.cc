@@ -76,7 +76,8 @@ namespace Impoint
   void write_summary(const RunRecord &record, const OutputFolder &folder)
   {
     SummaryJson summary;
-    summary["status"] = record.status;
+    // a run that was stopped is not done, which is all that scripts ask for
+    summary["status"] = record.status == "done" ? "done" : "failed";
     if (record.status != "done")
       summary["message"] = record.message;
     summary["scene"]       = record.scene;
@@ -85,6 +86,7 @@ namespace Impoint
     summary["ranks"]       = record.ranks;
     summary["method"]      = summary_of_method(record);
     summary["results"]     = summary_of_results(record);
+    summary["warnings"]    = record.warnings;
     summary["counts"]      = summary_of_counts(record);
     summary["seconds"]     = summary_of_seconds(record.seconds);
     summary["peak memory"] = record.peak_memory;

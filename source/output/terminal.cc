@@ -208,7 +208,11 @@ namespace Impoint
 
   void Terminal::warning(const std::string &text)
   {
-    message("Warning: " + text);
+    if (!results)
+      return;
+    clear_bar();
+    out << std::flush;
+    errors << wrapped("Warning: " + text, 2) << std::flush;
   }
 
 

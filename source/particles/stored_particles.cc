@@ -75,41 +75,39 @@ namespace Impoint
 
 
   template <int dim>
-  void restore_particles(std::vector<StateArchive> &archives,
-                         const OwnCells            &cells,
-                         const MPI_Comm             communicator,
-                         PointCloud<dim>           &cloud)
+  void restore_particles(StoredPieces    &pieces,
+                         const OwnCells  &cells,
+                         const MPI_Comm   communicator,
+                         PointCloud<dim> &cloud)
   {
     const unsigned int n_doubles = cloud.layout().n_doubles();
     std::size_t        n_stored  = 0;
     std::vector<typename PointCloud<dim>::NewParticle> mine;
     on_all_ranks(communicator, [&]() {
-      for (auto &archive : archives)
-        {
-          PackedParticles packed;
-          tag_layout(cloud.layout(), archive);
-          packed.save_or_load(archive);
-          std::size_t p = 0;
-          for (std::size_t i = 0; i < packed.numbers_in_cell.size(); ++i)
-            {
-              PackedCell cell;
-              std::copy_n(packed.cells.begin() + i * cell.size(),
-                          cell.size(),
-                          cell.begin());
-              const auto found = cells.find(CellId(cell));
-              for (std::size_t k = 0; k < packed.numbers_in_cell[i]; ++k, ++p)
-                if (found != cells.end())
-                  {
-                    const auto begin =
-                      packed.properties.begin() + p * n_doubles;
-                    mine.push_back(
-                      {found->second,
-                       packed.ids[p],
-                       std::vector<double>(begin, begin + n_doubles)});
-                  }
-            }
-          n_stored += p;
-        }
+      pieces.for_each([&](StateArchive &archive) {
+        PackedParticles packed;
+        tag_layout(cloud.layout(), archive);
+        packed.save_or_load(archive);
+        std::size_t p = 0;
+        for (std::size_t i = 0; i < packed.numbers_in_cell.size(); ++i)
+          {
+            PackedCell cell;
+            std::copy_n(packed.cells.begin() + i * cell.size(),
+                        cell.size(),
+                        cell.begin());
+            const auto found = cells.find(CellId(cell));
+            for (std::size_t k = 0; k < packed.numbers_in_cell[i]; ++k, ++p)
+              if (found != cells.end())
+                {
+                  const auto begin = packed.properties.begin() + p * n_doubles;
+                  mine.push_back(
+                    {found->second,
+                     packed.ids[p],
+                     std::vector<double>(begin, begin + n_doubles)});
+                }
+          }
+        n_stored += p;
+      });
     });
     if (Utilities::MPI::sum(mine.size(), communicator) != n_stored)
       throw StateArchive::does_not_fit(
@@ -117,14 +115,14 @@ namespace Impoint
     cloud.insert(mine);
   }
 
-#define IMPOINT_INSTANTIATE(dim)                                   \
-  template OwnCells own_cells(const BackgroundGrid<dim> &);        \
-  template void     store_particles(const PointCloud<dim> &,       \
-                                    const BackgroundGrid<dim> &,   \
-                                    StateArchive &);               \
-  template void     restore_particles(std::vector<StateArchive> &, \
-                                      const OwnCells &,            \
-                                      const MPI_Comm,              \
+#define IMPOINT_INSTANTIATE(dim)                                 \
+  template OwnCells own_cells(const BackgroundGrid<dim> &);      \
+  template void     store_particles(const PointCloud<dim> &,     \
+                                    const BackgroundGrid<dim> &, \
+                                    StateArchive &);             \
+  template void     restore_particles(StoredPieces &,            \
+                                      const OwnCells &,          \
+                                      const MPI_Comm,            \
                                       PointCloud<dim> &);
 
   IMPOINT_INSTANTIATE(2)

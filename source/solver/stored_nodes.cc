@@ -50,7 +50,7 @@ namespace Impoint
 
 
   template <int dim>
-  void restore_nodes(std::vector<StateArchive>                  &archives,
+  void restore_nodes(StoredPieces                               &pieces,
                      const OwnCells                             &cells,
                      const ActiveNodes<dim>                     &active,
                      LinearAlgebra::distributed::Vector<double> &vector)
@@ -61,48 +61,47 @@ namespace Impoint
     for (unsigned int i = 0; i < active.n_nodes() * dim; ++i)
       vector.local_element(i) = std::numeric_limits<double>::lowest();
     on_all_ranks(active.basis().grid().communicator(), [&]() {
-      for (auto &archive : archives)
-        {
-          PackedNodes packed;
-          packed.save_or_load(archive);
-          const double *value = packed.values.data();
-          for (unsigned int i = 0; i < packed.n_nodes.size(); ++i)
-            {
-              PackedCell cell;
-              std::copy_n(packed.cells.begin() + i * cell.size(),
-                          cell.size(),
-                          cell.begin());
-              const auto         found = cells.find(CellId(cell));
-              const unsigned int n     = packed.n_nodes[i] * dim;
-              const unsigned int k     = found == cells.end() ?
-                                           BackgroundGrid<dim>::nowhere :
-                                           active.position(found->second);
-              if (k != BackgroundGrid<dim>::nowhere)
-                {
-                  const auto nodes = active.nodes(k);
-                  if (nodes.size() * dim != n)
-                    throw StateArchive::does_not_fit(
-                      "its cells have other nodes");
-                  for (unsigned int j = 0; j < n; ++j)
-                    vector.local_element(nodes[j / dim] * dim + j % dim) =
-                      value[j];
-                }
-              value += n;
-            }
-        }
+      pieces.for_each([&](StateArchive &archive) {
+        PackedNodes packed;
+        packed.save_or_load(archive);
+        const double *value = packed.values.data();
+        for (unsigned int i = 0; i < packed.n_nodes.size(); ++i)
+          {
+            PackedCell cell;
+            std::copy_n(packed.cells.begin() + i * cell.size(),
+                        cell.size(),
+                        cell.begin());
+            const auto         found = cells.find(CellId(cell));
+            const unsigned int n     = packed.n_nodes[i] * dim;
+            const unsigned int k     = found == cells.end() ?
+                                         BackgroundGrid<dim>::nowhere :
+                                         active.position(found->second);
+            if (k != BackgroundGrid<dim>::nowhere)
+              {
+                const auto nodes = active.nodes(k);
+                if (nodes.size() * dim != n)
+                  throw StateArchive::does_not_fit(
+                    "its cells have other nodes");
+                for (unsigned int j = 0; j < n; ++j)
+                  vector.local_element(nodes[j / dim] * dim + j % dim) =
+                    value[j];
+              }
+            value += n;
+          }
+      });
     });
     vector.compress(VectorOperation::max);
     vector.update_ghost_values();
   }
 
-#define IMPOINT_INSTANTIATE(dim)                           \
-  template void store_nodes(                               \
-    const ActiveNodes<dim> &,                              \
-    const LinearAlgebra::distributed::Vector<double> &,    \
-    StateArchive &);                                       \
-  template void restore_nodes(std::vector<StateArchive> &, \
-                              const OwnCells &,            \
-                              const ActiveNodes<dim> &,    \
+#define IMPOINT_INSTANTIATE(dim)                        \
+  template void store_nodes(                            \
+    const ActiveNodes<dim> &,                           \
+    const LinearAlgebra::distributed::Vector<double> &, \
+    StateArchive &);                                    \
+  template void restore_nodes(StoredPieces &,           \
+                              const OwnCells &,         \
+                              const ActiveNodes<dim> &, \
                               LinearAlgebra::distributed::Vector<double> &);
 
   IMPOINT_INSTANTIATE(2)

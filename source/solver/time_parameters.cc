@@ -33,7 +33,7 @@ namespace Impoint
       smallest,
       "Part of 'Step' below which steps are not halved: the run "
       "fails instead.",
-      Patterns::Double(0, 1));
+      Patterns::Double(1e-12, 1));
     prm.add_parameter("Newmark beta",
                       beta,
                       "Newmark's parameter beta.",
@@ -93,6 +93,13 @@ namespace Impoint
                          " s is longer than the run of " +
                          file.value("Time/End time") + " s",
                        "Set Step to at most 'End time'.");
+    const double most_steps = 1e9;
+    if (step * most_steps < end)
+      throw file.error("Time/Step",
+                       "steps of " + file.value("Time/Step") +
+                         " s in a run of " + file.value("Time/End time") +
+                         " s are more than 1e9",
+                       "Set a longer step.");
     if (dynamic_from >= end)
       throw file.error("Time/Dynamic from",
                        "the motion starts at " +

@@ -54,6 +54,7 @@ void test_history(const OutputFolder &folder)
 {
   const double  third = 1. / 3.;
   HistoryWriter history(folder);
+  history.begin({"step", "x, y"});
   history.write({{"step", 1}, {"x, y", third}});
   history.write({{"step", 2}, {"x, y", -1e-300 / 7}});
   std::istringstream lines(content(folder.path() + "/history.csv"));
@@ -72,6 +73,7 @@ void test_summary(const OutputFolder &folder)
   record.message    = "Step 3: \"det F\" <= 0";
   record.boundaries = {{"clamp", "projected penalty"}};
   record.results    = {{"tip", -2, -2.5}, {"rest", 3, 0}, {"free", 4}};
+  record.warnings   = {"a wall in the air"};
   record.counters   = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
   record.seconds    = {1, 2, 3, 4, 5, 6, 7, 8, 9};
   record.points     = 14;
@@ -100,7 +102,7 @@ void test_lost_folder(const OutputFolder &folder)
     }
   try
     {
-      HistoryWriter(folder).write({{"step", 1}});
+      HistoryWriter(folder).begin({"step"});
     }
   catch (const RunFailed &)
     {
@@ -126,12 +128,10 @@ int main(int argc, char **argv)
   check_folder(path);
   test_history(folder);
   test_summary(folder);
-
-  folder.write("mine.txt", "keep");
-  folder.write("grid.pvd", "of the earlier run");
   if (is_root())
     std::filesystem::create_directories(path + "/vtu/mine-00001.vtu");
-  folder.write("vtu/points-00001.vtu", "of the earlier run");
+  for (const char *name : {"mine.txt", "grid.pvd", "vtu/points-00001.vtu"})
+    folder.write(name, "of the earlier run");
   check_folder(path);
   check_folder(path, true);
   check_folder(path + "/mine.txt/below");

@@ -1,4 +1,5 @@
-// What the terminal shows: silent, normal with few and many steps, talkative.
+// What the terminal shows: silent, results, normal with few and many steps,
+// talkative.
 // Memory and time are plausible.
 
 #include <impoint/output/machine.h>
@@ -59,6 +60,8 @@ void show(const std::string &verbosity)
     if (verbosity == "normal" && line.find("BLAS") == std::string::npos &&
         line.find("impoint ") != 0)
       std::cout << line << '\n';
+  errors.str("");
+  terminal.warning("nothing but a test.");
   std::cout << steps(terminal, out, 2);
   out.str("");
   terminal.finish(example(), "results");
@@ -80,6 +83,7 @@ int main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   show("silent");
+  show("results");
   show("normal");
   show_many_steps();
   show("talkative");

@@ -100,6 +100,21 @@ void test_grid(const OutputFolder &folder)
   say(array_sum(cells, "u") + "\n" + array_sum(cells, "active"));
 }
 
+/** More than MPI takes at once. */
+void test_large_pieces()
+{
+  const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+  const std::size_t  size = (40 << 20) + 1;
+  bool               same = true;
+  char               next = 'a';
+  collect_on_root(std::string(size, 'a' + rank),
+                  comm,
+                  [&](const std::string &of_rank) {
+                    same &= of_rank == std::string(size, next++);
+                  });
+  say(std::string("large pieces arrive: ") + (same ? "yes" : "no"));
+}
+
 int main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
@@ -107,6 +122,7 @@ int main(int argc, char **argv)
   folder.create();
   test_points(folder);
   test_grid(folder);
+  test_large_pieces();
 
   MPI_Barrier(comm);
   if (is_root())

@@ -1,6 +1,8 @@
-"""What stops a run leaves a checkpoint: a signal, a failure. A damaged file is
+"""What stops a run leaves a checkpoint: a signal, also through mpirun, a failure. A damaged file is
 recognised, and the one before it serves."""
 
+import csv
+import os
 import re
 import shutil
 import signal
@@ -59,25 +61,48 @@ def check_damage(whole):
     print("no checkpoint, or one of another scene: said so")
 
 
+def expect_pictures(folder, number):
+    """The first state and the last one."""
+    times = re.findall('timestep="([^"]+)"',
+                       (folder / "points.pvd").read_text())
+    with open(folder / "history.csv") as file:
+        last = list(csv.DictReader(file))[-1]["time"]
+    expect(len(times) == number and float(times[0]) == 0 and
+           abs(float(times[-1]) / float(last) - 1) < 1e-5,
+           f"pictures at {times} s, the last step at {last} s")
+
+
 def check_signal(whole):
-    for number in (signal.SIGTERM, signal.SIGINT):
-        folder = Path(f"signal-{number}")
+    for number, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1),
+                          (signal.SIGHUP, 1), (signal.SIGINT, 2)):
+        folder = Path(f"signal-{number}-{ranks}")
         process = subprocess.Popen(
-            command([*BLOCK, "--output", folder, "--overwrite", "--set",
-                     "Output/Checkpoint every = 0"], ranks=1),
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            command([*BLOCK, "--output", folder, "--overwrite",
+                     "--set", "Output/Checkpoint every = 0",
+                     "--set", "Measurements/path/Reference = 1; 0",
+                     "--set", "Output/Pictures every = 1000"], ranks),
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+            env={**os.environ, "OMPI_MCA_odls_base_sigkill_timeout": "3"})
         for line in process.stdout:  # until the first step is done
             if re.match(r" +1 ", line):
                 break
         process.send_signal(number)
         said = process.communicate()[0]
-        expect(process.returncode == 2 and "told to stop by a signal" in said
-               and "--resume" in said, said)
-        steps = summary_of(folder)["counts"]["steps"]
-        expect(0 < steps < 35 and len(states(folder)) == 1,
-               f"{steps} steps, {states(folder)}")
-        finish(["--resume", folder])
-        expect_same_end(f"resumed after signal {number}", whole, folder)
+        expect((process.returncode == 2 or ranks > 1) and
+               "\nstopped: " in said and "--resume" in said and
+               "told to stop by a signal" in said, said)
+        summary = summary_of(folder)
+        steps = summary["counts"]["steps"]
+        expect(0 < steps < 35 and len(states(folder)) == 1 and
+               summary["status"] == "failed" and
+               not any("reference" in result
+                       for result in summary["results"].values()),
+               f"{steps} steps, {states(folder)}, {summary}")
+        expect_pictures(folder, 2)
+        finish(["--resume", folder], ranks)
+        expect_same_end(f"resumed after signal {number}, {ranks} ranks", whole,
+                        folder)
+        expect_pictures(folder, 2)
 
 
 def check_failure():

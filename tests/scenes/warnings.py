@@ -19,7 +19,7 @@ def said_by(scene, settings, ranks=1, check=True):
     arguments += ["--check"] if check else ["--output", "out", "--overwrite"]
     process = driver.run([scene, *arguments], ranks)
     expect(process.returncode == 0, f"{settings}: {process.stderr}")
-    return " ".join(process.stdout.split())
+    return " ".join((process.stdout + process.stderr).split())
 
 
 def expect_warning(title, text, scene, settings, **keywords):
@@ -45,7 +45,20 @@ def check_lost_probe():
     expect(0 < n_known < len(values) == 15 and
            values[n_known:] == ["nan"] * (15 - n_known), str(values))
     summary = driver.json.loads(Path("out/summary.json").read_text())
-    expect(summary["results"]["beside u_x"]["value"] is None, str(summary))
+    expect(summary["results"]["beside u_x"]["value"] is None and
+           lost in summary["warnings"][0], str(summary))
+
+
+def check_reference():
+    """Results of a run that is done are not lost for it."""
+    expect_warning("a reference without a value",
+                   "'tip u_y' has no reference", BAR,
+                   ["Measurements/tip/Reference = 0; 1 / (t - 1)",
+                    "Output/Verbosity = results"], check=False)
+    summary = driver.json.loads(Path("out/summary.json").read_text())
+    expect("reference" in summary["results"]["tip u_x"] and
+           "reference" not in summary["results"]["tip u_y"] and
+           len(summary["warnings"]) == 1, str(summary))
 
 
 def main():
@@ -76,6 +89,7 @@ def main():
                    "'Projection = consistent' on a grid that is reset", BLOCK,
                    ["Time/Projection = consistent"])
     check_lost_probe()
+    check_reference()
 
     said = said_by(BAR, ["Time/Step = 0.25", "Linear solver/Kind = iterative",
                          "Bodies/bar/Body force = 0; -0.01 * t * t",

@@ -38,6 +38,11 @@ namespace Impoint
       return all;
     }
 
+    std::size_t n_read() const
+    {
+      return place;
+    }
+
     template <typename T>
     StateArchive &operator&(T &value)
     {

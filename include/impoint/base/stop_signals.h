@@ -1,12 +1,25 @@
 #ifndef impoint_base_stop_signals_h
 #define impoint_base_stop_signals_h
 
+#include <impoint/base/exceptions.h>
+
 namespace Impoint
 {
+  /** A run that could go on but was told not to. */
+  class RunStopped : public RunFailed
+  {
+  public:
+    using RunFailed::RunFailed;
+  };
+
   /**
-   * While it lives, the first SIGTERM or SIGINT (Ctrl-C) does not end the
-   * program but is noted, for the run to end in order after its step. The
-   * second one ends it.
+   * While it lives, the first SIGTERM, SIGINT (Ctrl-C) or SIGHUP (a terminal
+   * that is closed) does not end the program but is noted, for the run to end
+   * in order after its step. The second one of a kind ends it.
+   *
+   * Open MPI's mpirun does not pass Ctrl-C on: it sends SIGCONT at once,
+   * SIGTERM and SIGKILL after a while each (odls_base_sigkill_timeout, 1 s).
+   * SIGCONT from there is noted, too, unless SIGTSTP (Ctrl-Z) came before.
    */
   class StopSignals
   {

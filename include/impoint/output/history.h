@@ -9,17 +9,19 @@
 namespace Impoint
 {
   /**
-   * Writes history.csv, a row a step. The first row's names become the header.
+   * Writes history.csv, a row a step.
    */
   class HistoryWriter
   {
   public:
-    /** Opens nothing before the first row. */
+    /** Opens nothing. */
     explicit HistoryWriter(const OutputFolder &folder);
 
-    /** Goes on with the file of an earlier run after its first @p n_rows rows;
-     * drops the others. Collective; throws InputError if there are fewer. */
-    void resume(const std::size_t n_rows);
+    /** Writes the header, or goes on with the file of an earlier run after its
+     * first @p n_rows rows and drops the others. Collective; throws InputError
+     * if there are fewer or of other columns, or RunFailed. */
+    void begin(const std::vector<std::string> &columns,
+               const std::size_t               n_rows = 0);
 
     /**
      * Appends @p row (used on rank 0) with 17 digits and hands it to the
@@ -31,6 +33,7 @@ namespace Impoint
   private:
     void cut(const std::size_t n_rows);
     void append(const HistoryRow &row);
+    void put(const std::string &line);
 
     std::string   path, header;
     MPI_Comm      comm;

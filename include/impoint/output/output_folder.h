@@ -44,7 +44,7 @@ namespace Impoint
                  const std::string &place = "the output folder");
 
     /**
-     * Writes nothing. Throws InputError if the folder cannot be made or written
+     * Leaves nothing. Throws InputError if the folder cannot be made or written
      * to, or if it holds results that may not be overwritten.
      */
     void check() const;

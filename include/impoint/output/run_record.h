@@ -16,9 +16,10 @@ namespace Impoint
   struct Result
   {
     std::string name;
-    double      value = 0;
-    double reference  = std::numeric_limits<double>::quiet_NaN(); // NaN: none
-    double error() const // relative where the reference is not zero
+    double      value   = 0;
+    double reference    = std::numeric_limits<double>::quiet_NaN(); // NaN: none
+    std::string warning = ""; // why there is none
+    double      error() const // relative where the reference is not zero
     {
       return reference == 0 ? std::abs(value) :
                               std::abs(value / reference - 1.);
@@ -31,13 +32,14 @@ namespace Impoint
   /** What summary.json says of a run. */
   struct RunRecord
   {
-    std::string                                      status = "done";
-    std::string                                      message; // of a failed run
-    std::string                                      scene;
-    unsigned int                                     dimension = 0, ranks = 0;
-    std::string                                      basis, solver;
+    std::string  status = "done"; // done|stopped|failed
+    std::string  message;         // of a failed run
+    std::string  scene;
+    unsigned int dimension = 0, ranks = 0;
+    std::string  basis, solver;
     std::vector<std::pair<std::string, std::string>> boundaries; // name, method
     std::vector<Result>                              results;
+    std::vector<std::string>                         warnings;
     Counters                                         counters;
     Seconds                                          seconds;
     std::size_t points = 0, boundary_particles = 0, unknowns = 0;

@@ -30,15 +30,15 @@ namespace Impoint
    * What the user reads while the program runs. Rank 0 alone prints; no member
    * is collective.
    *
-   * "silent" prints failures only; "results" the table of results; "normal" a
-   * header, a line a step if they are few, else a progress bar (on a terminal)
-   * or every 5 % a line (in a file), and the results; "talkative" each step,
-   * details, and where the time went.
+   * "silent" prints failures only; "results" warnings and the table of results;
+   * "normal" a header, a line a step if they are few, else a progress bar (on a
+   * terminal) or every 5 % a line (in a file), and the results; "talkative"
+   * each step, details, and where the time went.
    */
   class Terminal
   {
   public:
-    /** Failures go to @p errors, everything else to @p out. */
+    /** Failures and warnings go to @p errors, everything else to @p out. */
     Terminal(const std::string &verbosity,
              const MPI_Comm     communicator,
              std::ostream      &out    = std::cout,

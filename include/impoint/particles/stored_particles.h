@@ -1,7 +1,7 @@
 #ifndef impoint_particles_stored_particles_h
 #define impoint_particles_stored_particles_h
 
-#include <impoint/base/state_archive.h>
+#include <impoint/base/stored_pieces.h>
 #include <impoint/particles/point_cloud.h>
 
 #include <deal.II/grid/cell_id.h>
@@ -26,16 +26,16 @@ namespace Impoint
                        StateArchive              &archive);
 
   /**
-   * Reads what each rank stored, in @p archives, and inserts the particles in
+   * Reads what each rank stored, from @p pieces, and inserts the particles in
    * own cells into the empty @p cloud. Those of a cell get the order that they
    * had. Collective; throws InputError, on all ranks, if they do not fit the
    * cloud or the grid.
    */
   template <int dim>
-  void restore_particles(std::vector<StateArchive> &archives,
-                         const OwnCells            &cells,
-                         const MPI_Comm             communicator,
-                         PointCloud<dim>           &cloud);
+  void restore_particles(StoredPieces    &pieces,
+                         const OwnCells  &cells,
+                         const MPI_Comm   communicator,
+                         PointCloud<dim> &cloud);
 } // namespace Impoint
 
 #endif

@@ -18,7 +18,7 @@ namespace Impoint
   /** Reads what each rank stored of the same active cells, on any number of
    * ranks. Collective. */
   template <int dim>
-  void restore_nodes(std::vector<StateArchive>                  &archives,
+  void restore_nodes(StoredPieces                               &pieces,
                      const OwnCells                             &cells,
                      const ActiveNodes<dim>                     &active,
                      LinearAlgebra::distributed::Vector<double> &vector);
