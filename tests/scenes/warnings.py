@@ -16,7 +16,8 @@ LOAD = ["Boundaries/Names = clamp, load",
 
 def said_by(scene, settings, ranks=1, check=True):
     arguments = [word for setting in settings for word in ("--set", setting)]
-    arguments += ["--check"] if check else ["--output", "out", "--overwrite"]
+    arguments += (["--check", "--output", "none"] if check else
+                  ["--output", "out", "--overwrite"])
     process = driver.run([scene, *arguments], ranks)
     expect(process.returncode == 0, f"{settings}: {process.stderr}")
     return " ".join((process.stdout + process.stderr).split())
