@@ -74,10 +74,15 @@ namespace Impoint
 
 
 
+    /** What is frozen is not asked what the law says: the first answer()
+     * afterwards is. */
     template <int dim>
     void GapMethod<dim>::freeze(const bool wanted)
     {
       frozen = wanted;
+      if (frozen)
+        for (auto &contact : contacts)
+          contact.overruled = false;
     }
 
     template class GapMethod<2>;
