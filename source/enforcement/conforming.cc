@@ -1,3 +1,4 @@
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/enforcement/conforming.h>
 
@@ -126,31 +127,33 @@ namespace Impoint
                                 const double            end) const
     {
       std::map<unsigned int, HeldNode<dim>> held;
-      for (unsigned int i = 0; i < boundaries.size(); ++i)
-        {
-          const Boundary &boundary = boundaries[i];
-          if (!boundary.parameters.is_active(start, end))
-            continue;
-          for (const auto &entry : boundary.nodes)
-            {
-              const unsigned int node = active.compact(entry.first);
-              if (node == BackgroundGrid<dim>::nowhere)
-                continue;
-              Tensor<1, dim> value;
-              if (!boundary.motion.is_zero())
-                value = boundary.motion.increment(basis.point(entry.first),
-                                                  basis.point(entry.first),
-                                                  start,
-                                                  end);
-              auto found = held.find(node);
-              if (found == held.end())
-                {
-                  found = held.emplace(node, HeldNode<dim>()).first;
-                  found->second.node = node;
-                }
-              hold(i, entry.second, value, found->second);
-            }
-        }
+      const auto hold_nodes = [&](const unsigned int i) {
+        const Boundary &boundary = boundaries[i];
+        for (const auto &entry : boundary.nodes)
+          {
+            const unsigned int node = active.compact(entry.first);
+            if (node == BackgroundGrid<dim>::nowhere)
+              continue;
+            Tensor<1, dim> value;
+            if (!boundary.motion.is_zero())
+              value = boundary.motion.increment(basis.point(entry.first),
+                                                basis.point(entry.first),
+                                                start,
+                                                end);
+            auto found = held.find(node);
+            if (found == held.end())
+              {
+                found              = held.emplace(node, HeldNode<dim>()).first;
+                found->second.node = node;
+              }
+            hold(i, entry.second, value, found->second);
+          }
+      };
+      on_all_ranks(basis.grid().communicator(), [&]() {
+        for (unsigned int i = 0; i < boundaries.size(); ++i)
+          if (boundaries[i].parameters.is_active(start, end))
+            hold_nodes(i);
+      });
       std::vector<HeldNode<dim>> result;
       for (const auto &entry : held)
         result.push_back(entry.second);

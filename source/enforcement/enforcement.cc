@@ -1,3 +1,4 @@
+#include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/enforcement/kinds.h>
 #include <impoint/enforcement/traction.h>
@@ -34,14 +35,16 @@ namespace Impoint
       if (motion.is_zero())
         return;
       const auto &slots = boundary->slots();
-      for (unsigned int b = 0; b < boundary->n(); ++b)
-        boundary->set_vector(
-          b,
-          slots.increment,
-          motion.increment(boundary->position(b),
-                           Point<dim>(boundary->vector(b, slots.start)),
-                           step.start,
-                           step.end));
+      on_all_ranks(step.active->basis().grid().communicator(), [&]() {
+        for (unsigned int b = 0; b < boundary->n(); ++b)
+          boundary->set_vector(
+            b,
+            slots.increment,
+            motion.increment(boundary->position(b),
+                             Point<dim>(boundary->vector(b, slots.start)),
+                             step.start,
+                             step.end));
+      });
     }
 
 
@@ -176,10 +179,9 @@ namespace Impoint
                                                const double      *u) const
     {
       const auto &slots = boundary->slots();
-      return displacement(b, n, u) + (boundary->carried().keeps_grid ?
-                                        boundary->vector(b, slots.start) +
-                                          boundary->vector(b, slots.u) :
-                                        boundary->vector(b, slots.x));
+      return boundary->carried().keeps_grid ?
+               boundary->vector(b, slots.start) + boundary->vector(b, slots.u) :
+               boundary->vector(b, slots.x) + displacement(b, n, u);
     }
 
 

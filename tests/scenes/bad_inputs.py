@@ -135,18 +135,28 @@ def check_newton_fails():
     print("run whose steps all fail: says that they were halved: yes")
 
 
-def check_expression_fails(ranks):
-    """At the end the load has no value, on the rank with the tip only."""
-    remove_results()
-    process = impoint([SCENE, "--set", "Time/Step = 0.25", "--set",
-                       "Bodies/bar/Body force = 0; -1e-3 * sqrt(1.8 - t * x)"],
-                      ranks)
-    expect(process.returncode == 2 and
-           process.stderr.count("has no finite value at") == 1, process.stderr)
-    summary = json.loads((RESULTS / "summary.json").read_text())
-    expect(summary["counts"]["steps"] == 3 and "tip u_y" in summary["results"],
-           "the steps before are lost")
-    print(f"load without a value, {ranks} ranks: status 2, state kept: yes")
+VALUE = "0; if(x > 1.2, 1e-3 * (sqrt(0.8 - t) - sqrt(0.8)), 0)"
+FAILING_EXPRESSIONS = {
+    "load": ["Bodies/bar/Body force = 0; -1e-3 * sqrt(1.8 - t * x)"],
+    "wall": ["Boundaries/clamp/Polyline = 0 0; 2 0", f"Boundaries/clamp/Value = {VALUE}"],
+    "conforming wall": ["Boundaries/Names = clamp, base",
+                        "Boundaries/base/Kind = conforming",
+                        "Boundaries/base/Boundary id = 2",
+                        f"Boundaries/base/Value = {VALUE}"]}
+
+
+def check_expressions_fail(ranks):
+    """At the end they have no value, on the rank with the tip only."""
+    for title, settings in FAILING_EXPRESSIONS.items():
+        remove_results()
+        process = impoint([SCENE, *(word for setting in ["Time/Step = 0.25", *settings]
+                                    for word in ("--set", setting))], ranks)
+        expect(process.returncode == 2 and
+               process.stderr.count("has no finite value at") == 1, process.stderr)
+        summary = json.loads((RESULTS / "summary.json").read_text())
+        expect(summary["counts"]["steps"] == 3 and "tip u_y" in summary["results"],
+               "the steps before are lost")
+        print(f"{title} without a value, {ranks} ranks: status 2, state kept: yes")
 
 
 def check_leaving_grid(ranks):
@@ -187,7 +197,7 @@ def main():
     for ranks in (1, 2):
         check_failing_run(ranks)
         check_first_step_fails(ranks)
-        check_expression_fails(ranks)
+        check_expressions_fail(ranks)
         check_leaving_grid(ranks)
 
 

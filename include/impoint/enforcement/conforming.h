@@ -63,7 +63,8 @@ namespace Impoint
         return boundaries[i].parameters.constraint;
       }
 
-      /** Held nodes among the active ones with the values of a step. */
+      /** Held nodes among the active ones with the values of a step.
+       * Collective. */
       std::vector<HeldNode<dim>> held_nodes(const ActiveNodes<dim> &active,
                                             const double            start,
                                             const double            end) const;
