@@ -65,44 +65,114 @@ namespace Impoint
 
 
   template <int dim>
-  std::vector<Measurements::BoundaryForce<dim>>
-  nonconforming_forces(const NonlinearSystem<dim>                  &system,
-                       typename NonlinearSystem<dim>::Methods      &methods,
-                       const ActiveNodes<dim>                      &active,
-                       const typename NonlinearSystem<dim>::Vector &u)
+  void end_step_of_boundaries(const NonlinearSystem<dim>             &system,
+                              typename NonlinearSystem<dim>::Methods &methods,
+                              const ActiveNodes<dim>                 &active,
+                              const typename NonlinearSystem<dim>::Vector &u)
   {
-    std::vector<Measurements::BoundaryForce<dim>> nonconforming(methods.size());
+    std::vector<double> cell_u;
+    for (const auto &method : methods)
+      {
+        const bool acts = method->is_active();
+        if (acts)
+          method->end_links(
+            [&](const unsigned int l, std::vector<double> &link_u) {
+              system.gather(active.link(method->begin_link() + l), u, link_u);
+            });
+        const auto &ranges = method->particles().ranges();
+        for (unsigned int r = 0; r < ranges.size(); ++r)
+          {
+            const unsigned int k         = active.position(ranges[r].cell);
+            const bool         is_active = k != BackgroundGrid<dim>::nowhere;
+            if (is_active)
+              system.gather(k, u, cell_u);
+            method->end_step(r, acts && is_active ? cell_u.data() : nullptr);
+            if (is_active)
+              method->follow_material(r, cell_u.data());
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  std::vector<Measurements::BoundaryForce<dim>>
+  nonconforming_forces(const NonlinearSystem<dim>                   &system,
+                       const typename NonlinearSystem<dim>::Methods &methods,
+                       const ActiveNodes<dim>                       &active,
+                       const typename NonlinearSystem<dim>::Vector  &u)
+  {
+    std::vector<Measurements::BoundaryForce<dim>> forces(methods.size());
     std::vector<double>                           cell_u;
     for (unsigned int m = 0; m < methods.size(); ++m)
       {
-        auto &particles       = methods[m]->particles();
-        nonconforming[m].name = particles.name();
+        forces[m].name = methods[m]->particles().name();
         if (methods[m]->is_active())
-          methods[m]->end_links([&](const unsigned int   l,
-                                    std::vector<double> &link_u) {
-            system.gather(active.link(methods[m]->begin_link() + l), u, link_u);
-          });
-        for (unsigned int r = 0; r < particles.ranges().size(); ++r)
-          {
-            const auto        &range = particles.ranges()[r];
-            const unsigned int k     = active.position(range.cell);
-            if (k == BackgroundGrid<dim>::nowhere)
-              {
-                methods[m]->end_step(r, nullptr);
-                continue;
-              }
-            system.gather(k, u, cell_u);
-            if (methods[m]->is_active())
-              {
-                methods[m]->end_step(r, cell_u.data());
-                add_forces(*methods[m], r, cell_u, nonconforming[m]);
-              }
-            else
-              methods[m]->end_step(r, nullptr);
-            methods[m]->follow_material(r, cell_u.data());
-          }
+          Enforcement::for_active_ranges(
+            *methods[m],
+            active,
+            [&](const unsigned int r, const unsigned int k) {
+              system.gather(k, u, cell_u);
+              add_forces(*methods[m], r, cell_u, forces[m]);
+            });
       }
-    return nonconforming;
+    return forces;
+  }
+
+
+
+  template <int dim>
+  std::vector<Measurements::BoundaryForce<dim>>
+  balanced_forces(const NonlinearSystem<dim>                   &system,
+                  const typename NonlinearSystem<dim>::Methods &methods,
+                  const ActiveNodes<dim>                       &active,
+                  const typename NonlinearSystem<dim>::Vector  &u)
+  {
+    using Enforcement::Strength;
+    std::vector<Measurements::BoundaryForce<dim>> forces(methods.size());
+    std::vector<double>                           cell_u, residual, matrix;
+    for (unsigned int m = 0; m < methods.size(); ++m)
+      {
+        const Enforcement::Method<dim> &method = *methods[m];
+        // Shape functions sum to one: so do the nodes' shares of a force. It is
+        // linear, as in the balance.
+        const auto subtract = [&](const unsigned int k,
+                                  const auto        &contribute) {
+          system.gather(k, u, cell_u);
+          const unsigned int        n = cell_u.size();
+          const std::vector<double> zero(n, 0.);
+          residual.assign(n, 0.);
+          matrix.assign(n * n, 0.);
+          CellSystem cell = {n / dim,
+                             zero.data(),
+                             residual.data(),
+                             matrix.data()};
+          contribute(cell);
+          const double *entry = matrix.data();
+          for (unsigned int ab = 0; ab < cell.n * cell.n; ++ab)
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                forces[m].force[i] -= *entry++ * cell_u[ab % cell.n * dim + j];
+          for (unsigned int i = 0; i < n; ++i)
+            forces[m].force[i % dim] -= residual[i];
+        };
+        forces[m].name = method.particles().name();
+        if (!method.is_active())
+          continue;
+        Enforcement::for_active_ranges(
+          method, active, [&](const unsigned int r, const unsigned int k) {
+            subtract(k, [&](CellSystem &cell) {
+              method.add(r, Strength::constraint, cell);
+            });
+          });
+        Enforcement::for_links(
+          method, active, [&](const unsigned int l, const unsigned int k) {
+            subtract(k, [&](CellSystem &cell) {
+              method.add_link(l, Strength::constraint, cell);
+            });
+          });
+      }
+    return forces;
   }
 
 #define IMPOINT_INSTANTIATE(dim)                                               \
@@ -111,9 +181,18 @@ namespace Impoint
     const Enforcement::Conforming<dim> &,                                      \
     const ActiveNodes<dim> &,                                                  \
     const NonlinearSystem<dim>::Vector &);                                     \
+  template void end_step_of_boundaries(const NonlinearSystem<dim> &,           \
+                                       NonlinearSystem<dim>::Methods &,        \
+                                       const ActiveNodes<dim> &,               \
+                                       const NonlinearSystem<dim>::Vector &);  \
   template std::vector<Measurements::BoundaryForce<dim>> nonconforming_forces( \
     const NonlinearSystem<dim> &,                                              \
-    NonlinearSystem<dim>::Methods &,                                           \
+    const NonlinearSystem<dim>::Methods &,                                     \
+    const ActiveNodes<dim> &,                                                  \
+    const NonlinearSystem<dim>::Vector &);                                     \
+  template std::vector<Measurements::BoundaryForce<dim>> balanced_forces(      \
+    const NonlinearSystem<dim> &,                                              \
+    const NonlinearSystem<dim>::Methods &,                                     \
     const ActiveNodes<dim> &,                                                  \
     const NonlinearSystem<dim>::Vector &);
 

@@ -1,6 +1,5 @@
 #include <impoint/base/parameter_file.h>
 #include <impoint/base/scoped_seconds.h>
-#include <impoint/boundary_forces.h>
 #include <impoint/history_row.h>
 #include <impoint/output/machine.h>
 #include <impoint/particles/stored_particles.h>
@@ -208,6 +207,8 @@ namespace Impoint
         particles.tag(method->particles().name());
         store_particles(method->particles(), grid, particles);
       }
+    if (scene.grid.is_kept() && counters.steps > 0)
+      store_nodes(active, kept_u, particles);
     if (scene.grid.is_kept() && has_moved())
       for (Vector *vector : inertia.carried())
         store_nodes(active, *vector, particles);
@@ -242,9 +243,13 @@ namespace Impoint
         });
         restore_particles(stored.particles, cells, comm, method->particles());
       }
-    if (scene.grid.is_kept() && has_moved())
+    if (scene.grid.is_kept() && counters.steps > 0)
       {
         activate(time, time + step_size.size);
+        restore_nodes(stored.particles, cells, active, kept_u);
+      }
+    if (scene.grid.is_kept() && has_moved())
+      {
         inertia.project(active, *points, step_size.size);
         for (Vector *vector : inertia.carried())
           restore_nodes(stored.particles, cells, active, *vector);
@@ -254,14 +259,13 @@ namespace Impoint
 
 
 
-  /** What the boundaries did in the step: in the order of the scene, summed
-   * over the ranks. */
+  /** Those of all boundaries: in the order of the scene, summed over the
+   * ranks. */
   template <int dim>
-  void Simulation<dim>::sum_forces()
+  void Simulation<dim>::sum_forces(
+    const std::vector<Measurements::BoundaryForce<dim>> &held,
+    const std::vector<Measurements::BoundaryForce<dim>> &nonconforming)
   {
-    const auto held = conforming_forces(*system, conforming, active, u);
-    const auto nonconforming =
-      nonconforming_forces(*system, methods, active, u);
     unsigned int next_held = 0, next_nonconforming = 0;
     forces.clear();
     for (unsigned int i = 0; i < scene.boundaries.size(); ++i)

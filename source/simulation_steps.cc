@@ -85,7 +85,7 @@ namespace Impoint
     const double end   = scene.time.end;
     while (!scene.time.is_over(time))
       {
-        // Steps end on multiples of the given size, without a tiny last one.
+        // The last one ends at the end; what is left by round-off is no step.
         const bool   rests = scene.time.rests_after(time);
         const double left  = (rests ? scene.time.dynamic_from : end) - time;
         const double now =

@@ -62,19 +62,22 @@ namespace Impoint
     void        activate(const double start, const double end);
     void        find_new_places();
     void        commit(const double dt);
-    void        sum_forces();
-    void        warn(const std::string &text);
-    void        warn_of_lost_loads();
-    void        record();
-    void        picture();
-    void        fill_record();
-    bool        has_moved() const;
-    bool        checkpoint_is_due(bool &stop) const;
-    void        write_checkpoint();
-    void        save_or_load(StateArchive &archive);
-    void        resume(StoredState stored);
-    void        keep_last_good_state();
-    void        end(const std::string &status, const std::string &message);
+    void        start_motion(const double dt);
+    void        sum_forces(
+             const std::vector<Measurements::BoundaryForce<dim>> &held,
+             const std::vector<Measurements::BoundaryForce<dim>> &nonconforming);
+    void warn(const std::string &text);
+    void warn_of_lost_loads();
+    void record();
+    void picture();
+    void fill_record();
+    bool has_moved() const;
+    bool checkpoint_is_due(bool &stop) const;
+    void write_checkpoint();
+    void save_or_load(StateArchive &archive);
+    void resume(StoredState stored);
+    void keep_last_good_state();
+    void end(const std::string &status, const std::string &message);
 
     Measurements::State<dim> state() const;
     std::vector<std::string> names_of_columns() const;
@@ -115,10 +118,11 @@ namespace Impoint
     std::size_t       patterns_before          = 0; // the resumed run
     std::size_t       pictured_step            = 0; // the last one
     std::vector<bool> told_of_lost_load;            // per method
-    std::chrono::steady_clock::time_point         last_checkpoint;
-    double                                        earlier_seconds = 0;
-    Vector                                        u;
-    std::vector<Point<dim>>                       places; // of the points
+    std::chrono::steady_clock::time_point last_checkpoint;
+    double                                earlier_seconds = 0;
+    Vector                                u;
+    Vector                  kept_u; // of a kept grid\'s nodes since the start
+    std::vector<Point<dim>> places; // of the points
     std::vector<std::vector<Point<dim>>>          boundary_places; // per method
     std::vector<Measurements::BoundaryForce<dim>> forces;
     RunRecord                                     run_record;

@@ -15,6 +15,14 @@ namespace Impoint
 
 
     template <int dim>
+    void Impulse<dim>::begin(const State<dim> &state)
+    {
+      last_force = force_of(state, boundary).force;
+    }
+
+
+
+    template <int dim>
     void Impulse<dim>::end_step(const State<dim> &state)
     {
       const Tensor<1, dim> force = force_of(state, boundary).force;

@@ -21,6 +21,16 @@ namespace Impoint
           limited->start(state);
         }
 
+        bool integrates_forces() const override
+        {
+          return limited->integrates_forces();
+        }
+
+        void begin(const State<dim> &state) override
+        {
+          limited->begin(state);
+        }
+
         void
         follow(const State<dim>                                 &state,
                const LinearAlgebra::distributed::Vector<double> &u) override

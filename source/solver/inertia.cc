@@ -1,6 +1,7 @@
 #include <impoint/grid/support_size.h>
 #include <impoint/solver/inertia.h>
 #include <impoint/solver/nodal_mass.h>
+#include <impoint/solver/stored_nodes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -150,25 +151,6 @@ namespace Impoint
 
 
 
-  namespace
-  {
-    template <typename Vector>
-    void take_layout(
-      const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
-      Vector                                                   &vector)
-    {
-      if (vector.get_partitioner() == layout)
-        return;
-      Vector moved(layout);
-      AssertDimension(moved.locally_owned_size(), vector.locally_owned_size());
-      std::copy(vector.begin(), vector.end(), moved.begin());
-      moved.update_ghost_values();
-      vector.swap(moved);
-    }
-  } // namespace
-
-
-
   template <int dim>
   bool Inertia<dim>::begin_step(const ActiveNodes<dim>    &active,
                                 const MaterialPoints<dim> &points,
@@ -177,7 +159,6 @@ namespace Impoint
     dt = time_step;
     if (has_carried)
       {
-        // The owned nodes of a kept grid stay; ghosts come and go with links.
         take_layout(active.unknowns(), velocities);
         take_layout(active.unknowns(), accelerations);
         take_layout(active.scalars(), masses);

@@ -1,6 +1,7 @@
 #include <impoint/base/on_all_ranks.h>
 #include <impoint/solver/stored_nodes.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace Impoint
@@ -92,6 +93,25 @@ namespace Impoint
     });
     vector.compress(VectorOperation::max);
     vector.update_ghost_values();
+  }
+
+
+
+  void
+  take_layout(const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
+              LinearAlgebra::distributed::Vector<double>               &vector)
+  {
+    if (vector.get_partitioner() == layout)
+      return;
+    LinearAlgebra::distributed::Vector<double> laid_out(layout);
+    if (vector.size() > 0)
+      {
+        AssertDimension(laid_out.locally_owned_size(),
+                        vector.locally_owned_size());
+        std::copy(vector.begin(), vector.end(), laid_out.begin());
+      }
+    laid_out.update_ghost_values();
+    vector.swap(laid_out);
   }
 
 #define IMPOINT_INSTANTIATE(dim)                        \

@@ -83,6 +83,9 @@ public:
     step.active = &active;
     for (const auto &method : methods)
       method->begin_step(step);
+    if (time == 0)
+      for (const auto &measurement : measurements)
+        measurement->begin(state());
     time += 1;
 
     LinearAlgebra::distributed::Vector<double> u(active.unknowns());

@@ -13,6 +13,11 @@ COARSE = ["Grid/Arguments = 19, 7 : 0, 0 : 9.5, 3.5", "Grid/Shift = -0.2, -1.8",
           "Bodies/beam/Mesh/Arguments = 32, 4 : 0, 0 : 8, 1"]
 VORTEX = ["Grid/Arguments = 12, 12 : -1.5, -1.5 : 1.5, 1.5", "Time/End time = 0.05",
           "Bodies/ring/Points per direction = 2", "Output/Pictures every = 0"]
+HELD = ["Boundaries/Names = clamp, wall, held",
+        "Boundaries/clamp/Active until = 0.01", "Boundaries/held/Kind = conforming",
+        "Boundaries/held/Boundary id = 0", "Grid/Shift = 0, -0.55, -0.45",
+        "Bodies/bar/Body force = 0; 2 * t; -9.81 * t", "Measurements/Names = tip, root",
+        "Measurements/root/Quantity = reaction", "Measurements/root/Boundary = held"]
 SCENES = {
     "quads": ("quickstart.prm", COARSE),
     "triangles": ("quickstart.prm", [*COARSE, "Grid/Cells = triangles"]),
@@ -44,6 +49,12 @@ SCENES = {
     "friction": ("beyond/friction-block.prm",
                  ["Output/Pictures every = 0", "Time/End time = 0.1"]),
     "kept grid": (HERE / "ranks_bar_3d.prm", ["Grid/Reset = never"]),
+    # by conforming boundaries
+    "held nodes": (HERE / "ranks_bar_3d.prm", HELD),
+    "held nodes, kept grid": (HERE / "ranks_bar_3d.prm",
+                              [*HELD, "Grid/Reset = never", "Time/Step = 0.5"]),
+    "held along slopes": ("beyond/kratos-slip.prm",
+                          ["Time/End time = 0.2", "Output/Pictures every = 0"]),
     "kept grid, dynamic": ("beyond/generalised-vortex.prm", VORTEX),
 }
 for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary",

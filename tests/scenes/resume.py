@@ -19,7 +19,7 @@ from pathlib import Path
 
 import driver
 from driver import expect
-from ranks import VORTEX, end_of_run, largest_difference
+from ranks import HELD, VORTEX, end_of_run, largest_difference
 
 HERE = Path(__file__).parent
 BLOCK = [HERE / "ranks_falling_block.prm",
@@ -38,6 +38,8 @@ BAR = [HERE / "ranks_bar_3d.prm", "--set", "Time/Step = 0.1",
        "--set", "Output/Checkpoint every = 1"]
 MULTIPLIERS = [*BAR, "--set", "Grid/Cells = tetrahedra", "--set",
                "Boundaries/clamp/Enforcement = lagrange multiplier"]
+HELD_RUN = [*BAR, *(word for setting in [*HELD, "Grid/Reset = never"]
+                    for word in ("--set", setting))]
 VORTEX_RUN = [driver.SCENES / "beyond/generalised-vortex.prm", *(
     word for setting in [*VORTEX, "Output/Checkpoint every = 2"]
     for word in ("--set", setting))]
@@ -145,6 +147,7 @@ def main():
     for ranks in (1, 2):
         kill_and_resume("block", BLOCK, ranks, 5, [3 - ranks, 3])
     kill_and_resume("bar", BAR, 1, 2, [2])
+    kill_and_resume("held nodes, kept grid", HELD_RUN, 2, 1, [1, 3])
     kill_and_resume("multipliers", MULTIPLIERS, 1, 1, [3])
     kill_and_resume("vortex", VORTEX_RUN, 2, 1, [1, 3])
 

@@ -185,7 +185,7 @@ namespace Impoint
       virtual void follow_material(const unsigned int r, const double *u);
 
       /** Where the material at particle @p b is at the end of the step, as far
-       * as the grid knows. */
+       * as the grid knows; after follow_material(). */
       Tensor<1, dim> material_place(const unsigned int b,
                                     const unsigned int n,
                                     const double      *u) const;

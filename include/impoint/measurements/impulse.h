@@ -9,7 +9,9 @@ namespace Impoint
   {
     /**
      * Integral over time of a boundary's force on the material, by the
-     * trapezoidal rule; the force at the start counts as zero.
+     * trapezoidal rule. The force at the start is that of the initial balance
+     * in a dynamic run, so that the impulse of all boundaries and loads is the
+     * change of momentum; in a quasi-static one a wall has none yet.
      *
      * Results: "NAME I_x", "NAME I_y"(, "NAME I_z") [Ns].
      */
@@ -20,6 +22,11 @@ namespace Impoint
       Impulse(const ParameterFile         &file,
               const MeasurementParameters &parameters);
 
+      bool integrates_forces() const override
+      {
+        return true;
+      }
+      void begin(const State<dim> &state) override;
       void end_step(const State<dim> &state) override;
       void save_or_load(StateArchive &archive) override;
 

@@ -65,6 +65,17 @@ namespace Impoint
       virtual void start(const State<dim> & /*state*/)
       {}
 
+      /** Whether begin() wants the forces at the start. */
+      virtual bool integrates_forces() const
+      {
+        return false;
+      }
+
+      /** Before the first step: nodes are active; forces are those at the
+       * start, without moments. */
+      virtual void begin(const State<dim> & /*state*/)
+      {}
+
       /** A step converged, points have not moved yet: @p u, ghosts up to date,
        * is its displacement on the active nodes. */
       virtual void

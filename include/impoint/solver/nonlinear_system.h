@@ -123,9 +123,14 @@ namespace Impoint
       return prescribed;
     }
 
+    /** What reaction() tells becomes that of nothing moved and no inertia;
+     * begin_step() comes before. Collective. */
+    void balance_at_rest();
+
     /** Accelerations with which the first step begins (M a = f), as the
-     * boundaries allow; begin_step() comes before. Collective. */
-    void initial_acceleration(Vector &accelerations);
+     * boundaries allow, and the displacements @p w at which boundaries exert
+     * the forces of that balance; begin_step() comes before. Collective. */
+    void initial_acceleration(Vector &accelerations, Vector &w);
 
     /** Residual relative to the forces, of the linearised problem after the
      * last correction: all that a linear step leaves. */

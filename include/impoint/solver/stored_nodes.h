@@ -22,6 +22,13 @@ namespace Impoint
                      const OwnCells                             &cells,
                      const ActiveNodes<dim>                     &active,
                      LinearAlgebra::distributed::Vector<double> &vector);
+
+  /** Gives @p vector, of the nodes of a kept grid or empty, the ghosts of
+   * @p layout: the owned nodes stay, ghosts come and go with links. An empty
+   * one becomes zero. Collective. */
+  void
+  take_layout(const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
+              LinearAlgebra::distributed::Vector<double>               &vector);
 } // namespace Impoint
 
 #endif

@@ -1,0 +1,229 @@
+// One step of Simulation.
+
+#include <impoint/base/scoped_seconds.h>
+#include <impoint/boundary_forces.h>
+#include <impoint/enforcement/acting_cells.h>
+#include <impoint/enforcement/proximity.h>
+#include <impoint/simulation.h>
+#include <impoint/solver/motion.h>
+#include <impoint/solver/stored_nodes.h>
+
+#include <algorithm>
+
+namespace Impoint
+{
+  /** Makes the cells with material active, and those of boundaries that act. */
+  template <int dim>
+  void Simulation<dim>::activate(const double start, const double end)
+  {
+    bool changed = false;
+    {
+      ScopedSeconds             timer(seconds.pattern);
+      std::vector<unsigned int> reached;
+      changed = active.reinit(
+        points->cells(),
+        Enforcement::cells(methods, start, end, scene.grid.is_kept()),
+        [&]() { return system->find_links(start, end); },
+        [&](const auto &candidates) {
+          return Enforcement::acting_cells(
+            methods, start, end, candidates, grid, *points, reached);
+        });
+      system->set_reached(reached);
+    }
+    // Resumed or gone on after a checkpoint: the same digits with a new factor.
+    if (changed || solver_starts_anew)
+      system->new_active_set();
+    if (changed || points_changed_cells || solver_starts_anew)
+      system->find_starved_cells();
+    points_changed_cells = solver_starts_anew = false;
+  }
+
+
+
+  /** Prepares boundaries and balance of a step of length @p dt, with what is
+   * prescribed at time @p end. */
+  template <int dim>
+  void Simulation<dim>::begin_step(const double dt, const double end)
+  {
+    Enforcement::Step<dim> step;
+    step.start  = time;
+    step.end    = end;
+    step.young  = points->young();
+    step.active = &active;
+    step.points = points.get();
+    for (const auto &method : methods)
+      method->begin_step(step);
+    const bool dynamic = scene.time.moves_after(time);
+    if (dynamic)
+      {
+        ScopedSeconds timer(seconds.project);
+        counters.projections += inertia.begin_step(active, *points, dt);
+      }
+    system->begin_step(time,
+                       end,
+                       body_force(*points,
+                                  active,
+                                  body_loads,
+                                  end,
+                                  dynamic ? &inertia.nodal_masses() : nullptr),
+                       dynamic ? &inertia : nullptr);
+    // Newton's last residual is that of the solution, unless a step is linear.
+    end_states.reinit(*points, !system->is_linear());
+  }
+
+
+
+  /** Balance before the first step, with loads and walls as they are at its
+   * start. */
+  template <int dim>
+  void Simulation<dim>::start_motion(const double dt)
+  {
+    const bool forces_wanted =
+      counters.steps == 0 &&
+      std::any_of(measurements.begin(),
+                  measurements.end(),
+                  [](const auto &measurement) {
+                    return measurement->integrates_forces();
+                  });
+    const bool accelerates = scene.time.moves_after(time) && !has_moved() &&
+                             scene.time.initial == "equilibrium";
+    if (!forces_wanted && !accelerates)
+      return;
+    begin_step(dt, time);
+    Vector w(active.unknowns());
+    w.update_ghost_values();
+    if (accelerates)
+      {
+        Vector accelerations;
+        system->initial_acceleration(accelerations, w);
+        set_accelerations(active, accelerations, *points);
+        if (scene.grid.is_kept())
+          inertia.carry(accelerations);
+      }
+    else
+      system->balance_at_rest();
+    if (!forces_wanted)
+      return;
+    sum_forces(conforming_forces(*system, conforming, active, w),
+               balanced_forces(*system, methods, active, w));
+    for (const auto &measurement : measurements)
+      measurement->begin(state());
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::advance(const double dt)
+  {
+    activate(time, time + dt);
+    if (scene.grid.is_kept())
+      take_layout(active.unknowns(), kept_u);
+    start_motion(dt);
+    begin_step(dt, time + dt);
+    warn_of_lost_loads();
+    u.reinit(active.unknowns());
+    u.update_ghost_values();
+    newton->solve(u);
+    try
+      {
+        find_new_places();
+      }
+    catch (const RunFailed &failure)
+      {
+        throw RunFailed(of_step(dt) + failure.what());
+      }
+    commit(dt);
+  }
+
+
+
+  /** Where everything will be; throws before anything has changed. */
+  template <int dim>
+  void Simulation<dim>::find_new_places()
+  {
+    ScopedSeconds timer(seconds.locate);
+    if (!scene.grid.is_kept())
+      new_places(*points, active, u, places);
+    counters.searches += points->find(places, "material point");
+    std::vector<double> cell_u;
+    for (unsigned int m = 0; m < methods.size(); ++m)
+      {
+        auto &particles = methods[m]->particles();
+        boundary_places[m].resize(particles.n());
+        for (unsigned int r = 0; r < particles.ranges().size(); ++r)
+          {
+            const unsigned int k = active.position(particles.ranges()[r].cell);
+            const bool         is_active = k != BackgroundGrid<dim>::nowhere;
+            if (is_active)
+              system->gather(k, u, cell_u);
+            methods[m]->new_places(r,
+                                   is_active ? cell_u.data() : nullptr,
+                                   boundary_places[m]);
+          }
+        if (methods[m]->moves())
+          particles.find(boundary_places[m],
+                         "in boundary '" + particles.name() + "' particle");
+      }
+    if (scene.time.moves_after(time) && !scene.grid.is_kept())
+      Enforcement::check_crossing(
+        methods, grid, *points, places, boundary_places);
+  }
+
+
+
+  template <int dim>
+  void Simulation<dim>::commit(const double dt)
+  {
+    const bool moves = scene.time.moves_after(time);
+    is_whole         = false;
+    last_step        = dt;
+    time += dt;
+    ++counters.steps;
+    {
+      ScopedSeconds timer(seconds.update);
+      if (scene.grid.is_kept())
+        {
+          kept_u += u;
+          kept_u.update_ghost_values();
+        }
+      end_step_of_boundaries(*system, methods, active, u);
+      sum_forces(conforming_forces(*system,
+                                   conforming,
+                                   active,
+                                   scene.grid.is_kept() ? kept_u : u),
+                 nonconforming_forces(*system, methods, active, u));
+    }
+    const auto before = state();
+    for (const auto &measurement : measurements)
+      {
+        measurement->follow(before, u);
+        const std::string text = measurement->take_warning();
+        if (!text.empty())
+          warn(text);
+      }
+    {
+      ScopedSeconds timer(seconds.update);
+      update_points(active, u, moves ? &inertia : nullptr, end_states, *points);
+      if (moves && scene.grid.is_kept())
+        inertia.end_step(u);
+    }
+    {
+      ScopedSeconds     timer(seconds.locate);
+      const std::size_t evaluations_before = points->n_evaluations();
+      points_changed_cells                 = points->move();
+      counters.shape_values += points->n_evaluations() - evaluations_before;
+      counters.sorts += points_changed_cells;
+      for (unsigned int m = 0; m < methods.size(); ++m)
+        if (methods[m]->moves())
+          methods[m]->finish_step(boundary_places[m]);
+    }
+    const auto after = state();
+    for (const auto &measurement : measurements)
+      measurement->end_step(after);
+    record();
+    is_whole = true;
+  }
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace Impoint
