@@ -134,6 +134,8 @@ namespace Impoint
     for (unsigned int m = 0; m < methods.size(); ++m)
       {
         const Enforcement::Method<dim> &method = *methods[m];
+        // loads, and multipliers that were found
+        const bool acts_at_rest = !method.constrains() || method.augmented();
         // Shape functions sum to one: so do the nodes' shares of a force. It is
         // linear, as in the balance.
         const auto subtract = [&](const unsigned int k,
@@ -153,8 +155,9 @@ namespace Impoint
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
                 forces[m].force[i] -= *entry++ * cell_u[ab % cell.n * dim + j];
-          for (unsigned int i = 0; i < n; ++i)
-            forces[m].force[i % dim] -= residual[i];
+          if (acts_at_rest)
+            for (unsigned int i = 0; i < n; ++i)
+              forces[m].force[i % dim] -= residual[i];
         };
         forces[m].name = method.particles().name();
         if (!method.is_active())
