@@ -66,7 +66,8 @@ namespace Impoint
                                   body_loads,
                                   end,
                                   dynamic ? &inertia.nodal_masses() : nullptr),
-                       dynamic ? &inertia : nullptr);
+                       dynamic ? &inertia : nullptr,
+                       scene.grid.is_kept() ? &kept_u : nullptr);
     // Newton's last residual is that of the solution, unless a step is linear.
     end_states.reinit(*points, !system->is_linear());
   }

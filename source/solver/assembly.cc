@@ -16,7 +16,8 @@ namespace Impoint
     , methods(methods)
     , empty_cells(active,
                   points.young() * points.carried().thickness,
-                  points.small_strain() || points.carried().dynamic)
+                  points.small_strain() ||
+                    (points.carried().dynamic && !points.carried().keeps_grid))
     , hourglass(active, points.young() * points.carried().thickness)
     , consistent_mass(points)
     , ghost_penalty(active, points)
@@ -69,8 +70,9 @@ namespace Impoint
   /** In dynamics the mass holds what few points cannot see. Next to none of it
    * is not enough where contact opens and closes. */
   template <int dim>
-  void Assembly<dim>::begin_step()
+  void Assembly<dim>::begin_step(const Vector *displacement_before)
   {
+    kept_u = displacement_before;
     in_contact.assign(active.n_cells(), false);
     for (const auto &method : methods)
       if (method->is_active() && !method->is_linear())
@@ -142,6 +144,25 @@ namespace Impoint
 
 
 
+  /** @p system of group k for what is stiff in the grid's shape, not in that at
+   * the start of the step. */
+  template <int dim>
+  CellSystem Assembly<dim>::since_start(const unsigned int k,
+                                        const CellSystem  &system)
+  {
+    CellSystem result = system;
+    if (kept_u != nullptr)
+      {
+        gather(k, *kept_u, whole_u);
+        for (unsigned int i = 0; i < whole_u.size(); ++i)
+          whole_u[i] += cell_u[i];
+        result.u = whole_u.data();
+      }
+    return result;
+  }
+
+
+
   template <int dim>
   void Assembly<dim>::assemble_material(const Vector &u,
                                         const bool    tangent_wanted,
@@ -163,7 +184,10 @@ namespace Impoint
                 hourglass.cells()[next_starved] == k)
               {
                 if (inertia == nullptr || in_contact[k])
-                  hourglass.add(next_starved, system);
+                  {
+                    CellSystem whole = since_start(k, system);
+                    hourglass.add(next_starved, whole);
+                  }
                 ++next_starved;
               }
             if (inertia != nullptr && inertia->consistent())
@@ -177,7 +201,8 @@ namespace Impoint
           }
         else if (!ghost_penalty.holds(k))
           {
-            empty_cells.add(k, system);
+            CellSystem whole = since_start(k, system);
+            empty_cells.add(k, whole);
             if (tangent_wanted && inertia != nullptr && in_contact[k])
               empty_cells.anchor(system);
           }
@@ -337,8 +362,7 @@ namespace Impoint
       if (!message.empty())
         throw StepFailed(message);
 
-    if (part != Part::loads) // at rest it has no force
-      assemble_ghost_penalty(u, tangent_wanted, part);
+    assemble_ghost_penalty(u, tangent_wanted, part);
     double scale = external.l2_norm();
     if (inertia != nullptr &&
         (part == Part::constraints || !inertia->consistent()))

@@ -29,7 +29,8 @@ namespace Impoint
         const unsigned int k = ghost_penalty.group(l);
         gather(k, u, cell_u);
         begin_cell(k, tangent_wanted, system);
-        ghost_penalty.add(l, system);
+        CellSystem whole = since_start(k, system);
+        ghost_penalty.add(l, whole);
         if (inertia != nullptr && inertia->consistent())
           {
             accelerations_of(k);

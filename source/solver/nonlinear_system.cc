@@ -103,13 +103,14 @@ namespace Impoint
   void NonlinearSystem<dim>::begin_step(const double        start,
                                         const double        end,
                                         const Vector       &loads,
-                                        const Inertia<dim> *step_inertia)
+                                        const Inertia<dim> *step_inertia,
+                                        const Vector       *displacement_before)
   {
     external = loads;
     inertia  = step_inertia;
     held     = conforming.held_nodes(active, start, end);
     scale    = 0;
-    assembly.begin_step();
+    assembly.begin_step(displacement_before);
     multipliers.begin_step();
     problem.enforced.assign(active.n_nodes(), false);
     for (const auto &method : methods)

@@ -41,7 +41,8 @@ def check_traction():
     for kind in ("dynamic", "quasi-static"):
         for step in (0.01, 0.03):
             summary = run_scene(SCENE, "run", [
-                *FLOORS["penalty"], "Boundaries/Names = floor, side", f"Time/Step = {step}",
+                *FLOORS["penalty"], "Grid/Arguments = 6, 5 : -0.25, 0 : 1.25, 1.25",
+                "Boundaries/Names = floor, side", f"Time/Step = {step}",
                 f"Time/Kind = {kind}", "Boundaries/side/Polyline = 0 1; 0 0",
                 "Boundaries/side/Rule = cut", "Boundaries/side/Constraint = traction",
                 "Boundaries/side/Traction = 1000 * (1 + t); 0",

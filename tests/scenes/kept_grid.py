@@ -10,6 +10,7 @@ from math import log2
 from pathlib import Path
 
 from driver import expect, run_scene
+from ranks import COARSE
 
 SHIFTED = Path(__file__).with_name("kept_grid_shifted.prm")
 QUIET = ["Output/Pictures every = 0"]
@@ -94,7 +95,26 @@ def check_moment():
         expect(abs(moment / 1e4 - 1) < 1e-9, "moment of a conforming boundary")
 
 
+def check_steps():
+    """A linear problem does not know in how many steps it is solved: nor do what
+    holds cells with few points and ghost penalties."""
+    for title, settings in (
+            ("few points", ["Bodies/beam/Mesh/Arguments = 16, 2 : 0, 0 : 8, 1",
+                            "Bodies/beam/Points per direction = 1"]),
+            ("ghost penalty", ["Grid/Ghost penalty = 1"])):
+        found = []
+        for steps in (1, 10):
+            found.append(run_scene("quickstart.prm", "run", [
+                *QUIET, *COARSE, "Grid/Reset = never", *settings,
+                "Bodies/beam/Material/Model = linear elastic",
+                "Bodies/beam/Body force = 0; -9.81 * t",
+                f"Time/Step = {1 / steps}"])["results"]["tip u_y"]["value"])
+        print(f"{title}, 10 steps instead of one: {found[1] / found[0] - 1:.1e} off")
+        expect(abs(found[1] / found[0] - 1) < 1e-9, f"{title} depends on steps")
+
+
 check_moment()
+check_steps()
 check_cantilever()
 check_column()
 check_vortex()

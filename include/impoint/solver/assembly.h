@@ -64,8 +64,9 @@ namespace Impoint
      * them and returns how many there are on all ranks. Collective. */
     std::size_t find_starved_cells();
 
-    /** What acts in the step is known. */
-    void begin_step();
+    /** What acts in the step is known. @p displacement_before: of the nodes of
+     * a kept grid at the start of the step, or null. */
+    void begin_step(const Vector *displacement_before);
 
     /**
      * Sets @p residual, and if wanted the matrix of @p problem (as this rank's
@@ -102,15 +103,18 @@ namespace Impoint
                     const bool         tangent_wanted,
                     CellSystem        &system);
     template <typename Function>
-    void   add_boundary(const unsigned int k,
-                        const Vector      &u,
-                        const bool         tangent_wanted,
-                        const Part         part,
-                        const Function    &contribute);
-    void   assemble_ghost_penalty(const Vector &u,
-                                  const bool    tangent_wanted,
-                                  const Part    part);
-    void   accelerations_of(const unsigned int k);
+    void add_boundary(const unsigned int k,
+                      const Vector      &u,
+                      const bool         tangent_wanted,
+                      const Part         part,
+                      const Function    &contribute);
+    void assemble_ghost_penalty(const Vector &u,
+                                const bool    tangent_wanted,
+                                const Part    part);
+    void accelerations_of(const unsigned int k);
+
+    CellSystem since_start(const unsigned int k, const CellSystem &system);
+
     double add_inertia(const Vector &u, const bool tangent_wanted);
     void   scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
     void   scatter_residual(const unsigned int k);
@@ -128,9 +132,11 @@ namespace Impoint
     // of the call of assemble() at work
     LinearProblem<dim> *problem = nullptr;
     const Inertia<dim> *inertia = nullptr;
+    const Vector       *kept_u  = nullptr; // before the step
     Vector              rest;
 
     // of the group at work
+    std::vector<double> whole_u; // since the start
     std::vector<double> cell_u, cell_accelerations, cell_residual, cell_matrix;
   };
 } // namespace Impoint

@@ -58,11 +58,13 @@ namespace Impoint
     void find_starved_cells();
 
     /** Prepares a step. @p external are the loads that do not depend on its
-     * displacements. @p inertia may be null. */
+     * displacements. @p inertia may be null, and so is @p displacement_before
+     * but for a kept grid, whose nodes were displaced by it. */
     void begin_step(const double        start,
                     const double        end,
                     const Vector       &external,
-                    const Inertia<dim> *inertia);
+                    const Inertia<dim> *inertia,
+                    const Vector       *displacement_before);
 
     /** Whether one iteration solves the step. */
     bool is_linear() const;
