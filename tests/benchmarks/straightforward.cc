@@ -95,7 +95,7 @@ public:
              seconds)
     , newton(scene.newton, system, counters)
   {
-    conforming.add_boundary(file, scene.conditions[0], 2);
+    conforming.add_boundary(file, scene.conditions[0], scene.boundaries[0]);
     system.add_term(std::make_unique<InternalForce<dim>>(*points));
     body_loads.push_back(
       {Expression<dim>(file, scene.bodies[0].section + "/Body force", dim)});
