@@ -64,7 +64,7 @@ namespace Impoint
                     const double        end,
                     const Vector       &external,
                     const Inertia<dim> *inertia,
-                    const Vector       *displacement_before);
+                    const Vector       *displacement_before = nullptr);
 
     /** Whether one iteration solves the step. */
     bool is_linear() const;
