@@ -47,9 +47,22 @@ void test(const std::string &cells, const std::string &basis)
                             residual.data(),
                             matrix.data()};
           ghost.add(l, system);
+          // at the grid's ends coefficients of splines are not the values
+          bool inside = degree == 1;
+          if (!inside)
+            {
+              inside = true;
+              for (const unsigned int node : nodes)
+                {
+                  const Point<dim> x =
+                    scene.basis.point(scene.active.grid_node(node));
+                  for (unsigned int d = 0; d < dim; ++d)
+                    inside &= std::abs(x[d]) < 2.9;
+                }
+            }
           for (unsigned int i = 0; i < values.size(); ++i)
             {
-              if (!kinked)
+              if (!kinked && inside)
                 smooth = std::max(smooth, std::abs(residual[i]));
               else
                 energy += 0.5 * values[i] * residual[i];
