@@ -135,7 +135,9 @@ namespace Impoint
       {
         const Enforcement::Method<dim> &method = *methods[m];
         // loads, and multipliers that were found
-        const bool acts_at_rest = !method.constrains() || method.augmented();
+        const auto *multipliers = methods[m]->multiplier_updates();
+        const bool  acts_at_rest =
+          !method.constrains() || (multipliers && multipliers->augmented());
         // Shape functions sum to one: so do the nodes' shares of a force. It is
         // linear, as in the balance.
         const auto subtract = [&](const unsigned int k,

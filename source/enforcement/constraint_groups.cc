@@ -14,8 +14,6 @@ namespace Impoint
       // What differs by less is alike: ranks round differently.
       constexpr double resolution = 1e-6;
 
-      constexpr double smallest_cosine = 0.9; // between normals of a group
-
       long rounded(const double value)
       {
         return std::lround(value / resolution);
@@ -72,7 +70,7 @@ namespace Impoint
                                          const unsigned int b) const
     {
       const Tensor<1, dim> &m = sums[a].normal, &n = sums[b].normal;
-      if (m * n < smallest_cosine * m.norm() * n.norm())
+      if (m * n < one_wall_cosine * m.norm() * n.norm())
         return false;
       std::vector<unsigned int> all(sums[a].cells);
       all.insert(all.end(), sums[b].cells.begin(), sums[b].cells.end());

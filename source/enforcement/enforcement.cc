@@ -78,66 +78,6 @@ namespace Impoint
 
 
     template <int dim>
-    void Method<dim>::update_multipliers(const unsigned int, CellSystem &)
-    {}
-
-
-
-    template <int dim>
-    void Method<dim>::update_link_multipliers(const unsigned int, CellSystem &)
-    {}
-
-
-
-    template <int dim>
-    void Method<dim>::add_exchange(const unsigned int, CellSystem &) const
-    {}
-
-
-
-    template <int dim>
-    std::vector<double> Method<dim>::multipliers() const
-    {
-      return {};
-    }
-
-
-
-    template <int dim>
-    void Method<dim>::set_multipliers(const std::vector<double> &)
-    {}
-
-
-
-    template <int dim>
-    void Method<dim>::begin_correction()
-    {}
-
-
-
-    template <int dim>
-    bool Method<dim>::contact_changed() const
-    {
-      return false;
-    }
-
-
-
-    template <int dim>
-    bool Method<dim>::contact_settled() const
-    {
-      return true;
-    }
-
-
-
-    template <int dim>
-    void Method<dim>::freeze(const bool)
-    {}
-
-
-
-    template <int dim>
     void Method<dim>::end_links(const LinkDisplacements &)
     {}
 

@@ -7,14 +7,6 @@ namespace Impoint
 {
   namespace Enforcement
   {
-    namespace
-    {
-      // What the V-cycle of the preconditioner bears, in units of E/h.
-      constexpr double moderate_factor = 10.;
-    } // namespace
-
-
-
     template <int dim>
     GapMethod<dim>::GapMethod(const ConditionParameters &parameters,
                               PrescribedMotion<dim>      motion,

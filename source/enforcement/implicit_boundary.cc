@@ -9,15 +9,6 @@ namespace Impoint
 {
   namespace Enforcement
   {
-    namespace
-    {
-      // What the V-cycle of the preconditioner bears, in units of E/h.
-      constexpr double moderate_factor = 10.;
-
-    } // namespace
-
-
-
     template <int dim>
     ImplicitBoundary<dim>::ImplicitBoundary(
       const ConditionParameters              &parameters,

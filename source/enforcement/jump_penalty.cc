@@ -12,8 +12,6 @@ namespace Impoint
   {
     namespace
     {
-      constexpr double smallest_cosine = 0.9; // between normals of neighbours
-
       template <std::size_t dim>
       double dot(const std::array<double, dim> &a,
                  const std::array<double, dim> &b)
@@ -38,7 +36,7 @@ namespace Impoint
                          &n = constrained.cells()[j].normal;
               return constrained.shared_edges(i, j).size() < n_edges ||
                      dot(m, n) <
-                       smallest_cosine * std::sqrt(dot(m, m) * dot(n, n));
+                       one_wall_cosine * std::sqrt(dot(m, m) * dot(n, n));
             };
             auto &list = neighbors[i];
             list.erase(std::remove_if(list.begin(), list.end(), no_neighbor),

@@ -10,9 +10,6 @@ namespace Impoint
   {
     namespace
     {
-      // What the V-cycle of the preconditioner bears, in units of n.C.n/h.
-      constexpr double moderate_factor = 10.;
-
       // In cell sizes: no sliver of material is taken for thinner.
       constexpr double smallest_width = 1e-13;
     } // namespace

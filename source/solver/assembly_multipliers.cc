@@ -15,24 +15,28 @@ namespace Impoint
     };
     for (const auto &method : methods)
       {
-        if (!method->is_active())
+        Enforcement::MultiplierUpdates *multipliers =
+          method->multiplier_updates();
+        if (!method->is_active() || multipliers == nullptr)
           continue;
-        if (method->augmented())
+        if (multipliers->augmented())
           {
             Enforcement::for_active_ranges(
               *method, active, [&](const unsigned int r, const unsigned int k) {
-                update(k, [&]() { method->update_multipliers(r, system); });
+                update(k,
+                       [&]() { multipliers->update_multipliers(r, system); });
               });
             Enforcement::for_links(
               *method, active, [&](const unsigned int l, const unsigned int k) {
-                update(k,
-                       [&]() { method->update_link_multipliers(l, system); });
+                update(k, [&]() {
+                  multipliers->update_link_multipliers(l, system);
+                });
               });
           }
-        if (method->exchange_multipliers())
+        if (multipliers->exchange_multipliers())
           Enforcement::for_active_ranges(
             *method, active, [&](const unsigned int r, const unsigned int k) {
-              update(k, [&]() { method->add_exchange(r, system); });
+              update(k, [&]() { multipliers->add_exchange(r, system); });
             });
       }
     rest.compress(VectorOperation::add);

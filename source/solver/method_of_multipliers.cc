@@ -37,8 +37,9 @@ namespace Impoint
   {
     Multipliers values;
     for (const auto &method : methods)
-      values.push_back(method->is_active() ? method->multipliers() :
-                                             std::vector<double>());
+      values.push_back(method->is_active() && method->multiplier_updates() ?
+                         method->multiplier_updates()->multipliers() :
+                         std::vector<double>());
     return values;
   }
 
@@ -48,7 +49,8 @@ namespace Impoint
   void MethodOfMultipliers<dim>::set(const Multipliers &values)
   {
     for (unsigned int m = 0; m < values.size(); ++m)
-      methods[m]->set_multipliers(values[m]);
+      if (auto *updates = methods[m]->multiplier_updates())
+        updates->set_multipliers(values[m]);
   }
 
 

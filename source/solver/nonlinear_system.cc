@@ -285,8 +285,8 @@ namespace Impoint
     cut(held, false, right);
     prepare_solver();
     for (const auto &method : methods)
-      if (method->is_active())
-        method->begin_correction();
+      if (method->is_active() && method->contact_states())
+        method->contact_states()->begin_correction();
     solve(right, delta);
     delta.update_ghost_values();
     cut(held, first, delta);

@@ -28,7 +28,8 @@ namespace Impoint
   {
     bool changed = false;
     for (const auto &method : methods)
-      changed |= method->is_active() && method->contact_changed();
+      if (const auto *states = method->contact_states())
+        changed |= method->is_active() && states->contact_changed();
     return has_kinks() &&
            Utilities::MPI::max(int(changed),
                                active.basis().grid().communicator());
@@ -41,7 +42,8 @@ namespace Impoint
   {
     bool settled = true;
     for (const auto &method : methods)
-      settled &= !method->is_active() || method->contact_settled();
+      if (const auto *states = method->contact_states())
+        settled &= !method->is_active() || states->contact_settled();
     return !has_kinks() ||
            Utilities::MPI::min(int(settled),
                                active.basis().grid().communicator());
@@ -53,7 +55,8 @@ namespace Impoint
   void NonlinearSystem<dim>::freeze(const bool wanted)
   {
     for (const auto &method : methods)
-      method->freeze(wanted);
+      if (auto *states = method->contact_states())
+        states->freeze(wanted);
   }
 
   template class NonlinearSystem<2>;

@@ -35,7 +35,8 @@ namespace Impoint
   {
     bool augmented = false;
     for (const auto &method : methods)
-      augmented |= method->is_active() && method->augmented();
+      augmented |= method->is_active() && method->multiplier_updates() &&
+                   method->multiplier_updates()->augmented();
     return Utilities::MPI::max(int(augmented),
                                active.basis().grid().communicator());
   }

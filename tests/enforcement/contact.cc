@@ -46,6 +46,11 @@ public:
     return *methods[0];
   }
 
+  Enforcement::ContactStates &contact()
+  {
+    return *floor().contact_states();
+  }
+
   // Displaced down and by @p along.
   void evaluate(const double along)
   {
@@ -76,23 +81,23 @@ int main(int argc, char **argv)
   Block                                  block;
   const auto                             tell = [&](const std::string &what) {
     std::cout << what << ": contact "
-              << (block.floor().contact_changed() ? "changed" : "as before")
+              << (block.contact().contact_changed() ? "changed" : "as before")
               << ", "
-              << (block.floor().contact_settled() ? "settled" : "not settled")
+              << (block.contact().contact_settled() ? "settled" : "not settled")
               << std::endl;
   };
   block.evaluate(0.2);
   tell("slides to the right");
-  block.floor().begin_correction();
+  block.contact().begin_correction();
   block.evaluate(0.3);
   tell("further");
   block.evaluate(-0.2);
   tell("to the left, which is overruled");
-  block.floor().freeze(true);
+  block.contact().freeze(true);
   tell("frozen");
   block.evaluate(-0.3);
   tell("further");
-  block.floor().freeze(false);
+  block.contact().freeze(false);
   block.evaluate(-0.3);
   tell("free again");
 }

@@ -14,6 +14,10 @@ namespace Impoint
 {
   namespace Enforcement
   {
+    /** Of the angle between the normals of cells that hold one wall: at least.
+     */
+    constexpr double one_wall_cosine = 0.9;
+
     /**
      * All ranks' active cells with particles of a boundary, one constraint
      * each, in the order of their first particles' ids: what is chosen among

@@ -1,6 +1,7 @@
 #ifndef impoint_enforcement_enforcement_h
 #define impoint_enforcement_enforcement_h
 
+#include <impoint/enforcement/capabilities.h>
 #include <impoint/enforcement/condition.h>
 #include <impoint/grid/active_nodes.h>
 #include <impoint/particles/boundary_particles.h>
@@ -30,9 +31,12 @@ namespace Impoint
     enum class Strength
     {
       exact,     // the tangent
-      moderate,  // what the preconditioner's V-cycle can bear: 10 E/h
+      moderate,  // what the preconditioner's V-cycle can bear
       constraint // what holds alone, without the stiffness of the material
     };
+
+    /** Of Strength::moderate, in units of E/h or n.C.n/h. */
+    constexpr double moderate_factor = 10.;
 
     /**
      * One nonconforming boundary and how its condition is imposed. A new
@@ -119,54 +123,17 @@ namespace Impoint
         return true;
       }
 
-      /** Whether the condition holds by multipliers, which a linear solve has
-       * to find together with the displacements. */
-      virtual bool augmented() const
+      /** Its multipliers; null: the condition holds without. */
+      virtual MultiplierUpdates *multiplier_updates()
       {
-        return false;
+        return nullptr;
       }
 
-      /** New multipliers from the gaps at the displacements of @p system, to
-       * whose residual it adds what that changes. */
-      virtual void update_multipliers(const unsigned int r, CellSystem &system);
-      virtual void update_link_multipliers(const unsigned int l,
-                                           CellSystem        &system);
-
-      /** After all updates: tells neighbours the new multipliers. Whether that
-       * changes the residual by add_exchange(). Collective. */
-      virtual bool exchange_multipliers()
+      /** What of it touches and slides; null: all does. */
+      virtual ContactStates *contact_states()
       {
-        return false;
+        return nullptr;
       }
-      virtual void add_exchange(const unsigned int r, CellSystem &system) const;
-
-      /** The multipliers of the iterate as numbers in an order of the method's
-       * own; none without them. */
-      virtual std::vector<double> multipliers() const;
-      virtual void set_multipliers(const std::vector<double> &values);
-
-      // Contact within Newton's method. begin_correction() remembers what
-      // touches and slides where a correction starts; after it
-      // contact_changed() tells whether that is otherwise now, so that the
-      // correction isn't shortened though residuals grow. The step has
-      // converged only if contact_settled(). Where contacts come and go for
-      // half of all iterations, freeze(true) keeps what touches touching; what
-      // converges so must be a solution after freeze(false), too.
-
-      /** The last add() was at the place that a correction starts from. */
-      virtual void begin_correction();
-
-      /** Whether something touches, lets go or slides that did not when the
-       * correction began. */
-      virtual bool contact_changed() const;
-
-      /** Whether all that was assumed of contact in the last add() is what the
-       * law says. */
-      virtual bool contact_settled() const;
-
-      /** Whether what touches shall go on touching: ends a cycle of the active
-       * set. */
-      virtual void freeze(const bool wanted);
 
       /** Puts the displacements of the nodes of its link @p l into @p u. */
       using LinkDisplacements =

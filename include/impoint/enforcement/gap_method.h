@@ -27,35 +27,47 @@ namespace Impoint
      * the last evaluation (a primal-dual active set): there the law is linear.
      */
     template <int dim>
-    class GapMethod : public Method<dim>
+    class GapMethod : public Method<dim>,
+                      public MultiplierUpdates,
+                      public ContactStates
     {
     public:
-      void                begin_step(const Step<dim> &step) override;
-      void                add(const unsigned int r,
-                              const Strength     strength,
-                              CellSystem        &system) const override;
-      bool                is_linear() const override;
-      bool                is_symmetric() const override;
+      void begin_step(const Step<dim> &step) override;
+      void add(const unsigned int r,
+               const Strength     strength,
+               CellSystem        &system) const override;
+      void add_link(const unsigned int l,
+                    const Strength     strength,
+                    CellSystem        &system) const override;
+      bool is_linear() const override;
+      bool is_symmetric() const override;
+      void end_links(
+        const typename Method<dim>::LinkDisplacements &displacements) override;
+      void end_step(const unsigned int r, const double *u) override;
+
+      MultiplierUpdates *multiplier_updates() override
+      {
+        return this;
+      }
       bool                augmented() const override;
       void                update_multipliers(const unsigned int r,
                                              CellSystem        &system) override;
+      void                update_link_multipliers(const unsigned int l,
+                                                  CellSystem        &system) override;
       bool                exchange_multipliers() override;
       void                add_exchange(const unsigned int r,
                                        CellSystem        &system) const override;
       std::vector<double> multipliers() const override;
       void set_multipliers(const std::vector<double> &values) override;
-      void add_link(const unsigned int l,
-                    const Strength     strength,
-                    CellSystem        &system) const override;
-      void update_link_multipliers(const unsigned int l,
-                                   CellSystem        &system) override;
-      void end_links(
-        const typename Method<dim>::LinkDisplacements &displacements) override;
+
+      ContactStates *contact_states() override
+      {
+        return this;
+      }
       void begin_correction() override;
       bool contact_changed() const override;
       bool contact_settled() const override;
       void freeze(const bool wanted) override;
-      void end_step(const unsigned int r, const double *u) override;
 
     protected:
       using Patch = GapPatch<dim>;
