@@ -4,6 +4,7 @@
 #include <impoint/enforcement/condition.h>
 #include <impoint/measurements/measurement_parameters.h>
 #include <impoint/particles/body_parameters.h>
+#include <impoint/particles/boundary_parameters.h>
 #include <impoint/solver/linear_solver.h>
 #include <impoint/solver/newton.h>
 #include <impoint/solver/time_parameters.h>

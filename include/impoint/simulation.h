@@ -117,7 +117,7 @@ namespace Impoint
     std::size_t       linear_iterations_before = 0; // the last step
     std::size_t       patterns_before          = 0; // the resumed run
     std::size_t       pictured_step            = 0; // the last one
-    std::vector<bool> told_of_lost_load;            // per method
+    std::vector<char> told_of_lost_load;            // per method
     std::chrono::steady_clock::time_point last_checkpoint;
     double                                earlier_seconds = 0;
     Vector                                u;

@@ -222,15 +222,15 @@ namespace Impoint
 
 
 
-    /** Refuses more cells than numbers of 32 bits count, before a mesh of that
-     * size is tried. */
+    /** Refuses what is too many, before a mesh of that size is tried. */
     template <int dim, int spacedim>
     void check_refinements(const ParameterFile                &file,
                            const MeshParameters               &parameters,
                            const Triangulation<dim, spacedim> &coarse)
     {
       const double       n_coarse = coarse.n_active_cells();
-      const unsigned int most     = (31 - std::log2(n_coarse)) / dim;
+      const unsigned int most =
+        std::log2(std::max(1., most_cells() / n_coarse)) / dim;
       if (parameters.refinements <= most)
         return;
       std::ostringstream n_cells;

@@ -6,9 +6,14 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_in.h>
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <iomanip>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -86,17 +91,36 @@ namespace Impoint
 
     /** deal.II reads a negative number of cells as a huge one. */
     void check_cell_numbers(const ParameterFile  &file,
-                            const MeshParameters &parameters)
+                            const MeshParameters &parameters,
+                            const unsigned int    dim)
     {
-      if (parameters.generator.rfind("subdivided_hyper_", 0) != 0)
+      const std::string several = "subdivided_hyper_";
+      if (parameters.generator.rfind(several, 0) != 0)
         return;
-      for (const std::string &number :
-           Words::split(Words::split(parameters.arguments, ':').front(), ','))
-        if (std::atof(number.c_str()) < 1)
-          throw file.error(parameters.section + "/Arguments",
-                           "'" + parameters.arguments +
-                             "' has a number of cells below 1",
-                           "Give numbers of cells of at least 1.");
+      const auto numbers =
+        Words::split(Words::split(parameters.arguments, ':').front(), ',');
+      double n_cells = 1;
+      for (unsigned int d = 0; d < std::max<std::size_t>(dim, numbers.size());
+           ++d)
+        {
+          // the cube has one number for all directions
+          const auto &text =
+            numbers[std::min<std::size_t>(d, numbers.size() - 1)];
+          const double n = std::atof(text.c_str());
+          n_cells *= n;
+          if (n < 1)
+            throw file.error(parameters.section + "/Arguments",
+                             "'" + parameters.arguments +
+                               "' has a number of cells below 1",
+                             "Give numbers of cells of at least 1.");
+        }
+      std::ostringstream text;
+      text << std::setprecision(2) << n_cells << " cells";
+      if (n_cells > most_cells())
+        throw file.error(parameters.section + "/Arguments",
+                         "'" + parameters.arguments + "' makes " + text.str() +
+                           ", more than this machine can hold",
+                         "Give smaller numbers of cells.");
     }
 
 
@@ -106,7 +130,7 @@ namespace Impoint
                         const MeshParameters         &parameters,
                         Triangulation<dim, spacedim> &mesh)
     {
-      check_cell_numbers(file, parameters);
+      check_cell_numbers(file, parameters, dim);
 
       // Most generators end with a flag to number the sides of the boundary,
       // which everybody wants and nobody should have to write.
@@ -191,6 +215,17 @@ namespace Impoint
   std::vector<std::string> mesh_file_endings()
   {
     return {".msh", ".vtk", ".inp", ".ucd"};
+  }
+
+
+
+  double most_cells()
+  {
+    constexpr double bytes_of_a_cell = 200; // of any mesh: at least
+    const double     memory =
+      double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+    return std::min<double>(std::numeric_limits<int>::max(),
+                            memory / bytes_of_a_cell);
   }
 
 

@@ -311,9 +311,7 @@ namespace Impoint
                           seed_uncut(facets, rule, grid);
     if (Utilities::MPI::sum(mine.size(), grid.communicator()) == 0)
       throw file.error(boundary.polyline.empty() ?
-                         boundary.mesh.section + (boundary.mesh.file.empty() ?
-                                                    "/Generator" :
-                                                    "/File") :
+                         boundary.mesh.source_entry() :
                          boundary.section + "/Polyline",
                        "the whole boundary '" + boundary.name +
                          "' lies outside of the grid",

@@ -327,10 +327,9 @@ namespace Impoint
                         const std::vector<SeededPoint<dim>>    &points,
                         const bool                              overlapping)
     {
-      const std::string place =
-        !body.outline.empty()  ? body.section + "/Outline" :
-        body.mesh.file.empty() ? body.mesh.section + "/Generator" :
-                                 body.mesh.section + "/File";
+      const std::string place = body.outline.empty() ?
+                                  body.mesh.source_entry() :
+                                  body.section + "/Outline";
       if (Utilities::MPI::max(int(overlapping), grid.communicator()) != 0)
         throw file.error(
           place,

@@ -183,8 +183,7 @@ namespace Impoint
             std::swap(facets.back()[2], facets.back()[3]);
         }
       if (!orient_facets(mesh.get_vertices(), facets))
-        throw file.error(parameters.section +
-                           (parameters.file.empty() ? "/Generator" : "/File"),
+        throw file.error(parameters.source_entry(),
                          "the surface has one side only",
                          "Give one whose normals can point to one side.");
 

@@ -97,8 +97,7 @@ namespace Impoint
       while (found[lost] > 0)
         ++lost;
       const auto corners = grid.box().get_boundary_points();
-      throw file.error(body.mesh.section +
-                         (body.mesh.file.empty() ? "/Generator" : "/File"),
+      throw file.error(body.mesh.source_entry(),
                        std::to_string(points.size() - n_found) +
                          " points of the "
                          "body '" +

@@ -3,7 +3,7 @@
 
 #include <impoint/enforcement/condition.h>
 #include <impoint/grid/active_nodes.h>
-#include <impoint/particles/body_parameters.h>
+#include <impoint/particles/boundary_parameters.h>
 
 #include <vector>
 

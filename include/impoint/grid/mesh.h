@@ -37,6 +37,17 @@ namespace Impoint
     std::vector<double> axis;         // 3D: of the rotation
     std::string         section;      // where the entries stand
 
+    bool is_given() const
+    {
+      return !generator.empty() || !file.empty();
+    }
+
+    /** Path of the entry that gives the mesh. */
+    std::string source_entry() const
+    {
+      return section + (file.empty() ? "/Generator" : "/File");
+    }
+
     /** Whether the cells are split into triangles or tetrahedra. */
     bool split() const
     {

@@ -19,6 +19,10 @@ namespace Impoint
   /** Endings of the mesh files that can be read, with the dot. */
   std::vector<std::string> mesh_file_endings();
 
+  /** Number of cells beyond which none is tried: what 32 bits count, or this
+   * machine's memory can hold. */
+  double most_cells();
+
   /** Reads the mesh file of @p parameters, or calls its generator. Throws
    * InputError if either fails or cells are inverted or flat. */
   template <int dim, int spacedim>

@@ -1,7 +1,7 @@
 #ifndef impoint_particles_facets_h
 #define impoint_particles_facets_h
 
-#include <impoint/particles/body_parameters.h>
+#include <impoint/particles/boundary_parameters.h>
 #include <impoint/particles/clipping.h>
 
 #include <vector>

@@ -3,6 +3,7 @@
 
 #include <impoint/grid/background_grid.h>
 #include <impoint/particles/body_parameters.h>
+#include <impoint/particles/boundary_parameters.h>
 
 #include <vector>
 
