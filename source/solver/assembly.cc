@@ -18,7 +18,7 @@ namespace Impoint
                   points.young() * points.carried().thickness,
                   points.small_strain() ||
                     (points.carried().dynamic && !points.carried().keeps_grid))
-    , hourglass(active, points.young() * points.carried().thickness)
+    , hourglass(active, points)
     , consistent_mass(points)
     , ghost_penalty(active, points)
   {}
@@ -42,44 +42,11 @@ namespace Impoint
 
 
 
-  /** How many points the active cell @p k has, if they have equal volumes; less
-   * if some have next to none: what they see costs next to nothing. */
-  template <int dim>
-  double Assembly<dim>::points_that_count(const unsigned int k) const
-  {
-    double sum = 0, squares = 0;
-    for (unsigned int p = points.ranges()[k].begin; p < points.ranges()[k].end;
-         ++p)
-      {
-        const double volume = points.data(p)[points.slots().volume];
-        sum += volume;
-        squares += volume * volume;
-      }
-    return sum * sum / squares;
-  }
-
-
-
   template <int dim>
   std::size_t Assembly<dim>::find_starved_cells()
   {
-    // Only linear functions: splines have about one function a cell, seen from
-    // several cells, and Hourglass would not leave quadratic fields alone.
-    const bool                linear    = active.basis().degree() == 1;
-    const unsigned int        n_rigid   = dim * (dim + 1) / 2;
-    constexpr double          round_off = 1e-6;
-    std::vector<unsigned int> starved;
-    for (unsigned int k = 0; linear && k < active.n_material_cells(); ++k)
-      {
-        const unsigned int n = active.nodes(k).size();
-        // Simplices see all their modes with one point. Elsewhere as many
-        // strains as modes are not enough: points may lie on a line.
-        if (n > dim + 1 && points_that_count(k) * Voigt<dim>::n <
-                             n * dim - n_rigid + round_off)
-          starved.push_back(k);
-      }
-    hourglass.reinit(starved);
-    return Utilities::MPI::sum(starved.size(),
+    hourglass.reinit();
+    return Utilities::MPI::sum(hourglass.cells().size(),
                                active.basis().grid().communicator());
   }
 

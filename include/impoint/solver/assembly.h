@@ -93,16 +93,15 @@ namespace Impoint
     void update_multipliers(const Vector &u, Vector &change);
 
   private:
-    double points_that_count(const unsigned int k) const;
-    void   assemble_material(const Vector &u,
+    void assemble_material(const Vector &u,
+                           const bool    tangent_wanted,
+                           const Part    part);
+    void assemble_boundaries(const Vector &u,
                              const bool    tangent_wanted,
                              const Part    part);
-    void   assemble_boundaries(const Vector &u,
-                               const bool    tangent_wanted,
-                               const Part    part);
-    void   begin_cell(const unsigned int k,
-                      const bool         tangent_wanted,
-                      CellSystem        &system);
+    void begin_cell(const unsigned int k,
+                    const bool         tangent_wanted,
+                    CellSystem        &system);
     template <typename Function>
     void add_boundary(const unsigned int k,
                       const Vector      &u,

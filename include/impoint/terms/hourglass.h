@@ -2,6 +2,7 @@
 #define impoint_terms_hourglass_h
 
 #include <impoint/grid/active_nodes.h>
+#include <impoint/particles/material_points.h>
 #include <impoint/terms/term.h>
 
 #include <vector>
@@ -21,25 +22,28 @@ namespace Impoint
   class Hourglass
   {
   public:
-    /** @p young: Young's modulus of the stiffest material [Pa], in 2D times the
-     * thickness. */
-    Hourglass(const ActiveNodes<dim> &active, const double young);
+    Hourglass(const ActiveNodes<dim>    &active,
+              const MaterialPoints<dim> &points);
 
-    /** @p starved: the places of the cells with too few points among the
-     * active ones, increasing. */
-    void reinit(const std::vector<unsigned int> &starved);
+    /** Finds the cells that have too few points now. */
+    void reinit();
 
     /** Adds the i-th of the starved cells. */
     void add(const unsigned int i, CellSystem &system) const;
 
+    /** The places of the starved cells among the active ones, increasing. */
     const std::vector<unsigned int> &cells() const
     {
       return starved_cells;
     }
 
   private:
+    bool                is_starved(const unsigned int k) const;
+    double              points_that_count(const unsigned int k) const;
+    std::vector<double> stiffness(const unsigned int c) const;
+
     const ActiveNodes<dim>          &active;
-    double                           young;
+    const MaterialPoints<dim>       &points;
     std::vector<unsigned int>        starved_cells;
     std::vector<std::vector<double>> matrices; // n x n, the same for components
   };
