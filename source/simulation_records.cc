@@ -14,8 +14,14 @@ namespace Impoint
   template <int dim>
   Measurements::State<dim> Simulation<dim>::state() const
   {
-    return {
-      *points, methods, active, time, last_step, forces, newton->residuals()};
+    return {*points,
+            methods,
+            active,
+            time,
+            last_step,
+            forces,
+            newton->residuals(),
+            [this]() { return system->condition_numbers(); }};
   }
 
 

@@ -46,11 +46,12 @@ namespace Impoint
   void Simulation<dim>::begin_step(const double dt, const double end)
   {
     Enforcement::Step<dim> step;
-    step.start  = time;
-    step.end    = end;
-    step.young  = points->young();
-    step.active = &active;
-    step.points = points.get();
+    step.start         = time;
+    step.end           = end;
+    step.young         = points->young();
+    step.ghost_penalty = scene.grid.ghost_factor();
+    step.active        = &active;
+    step.points        = points.get();
     for (const auto &method : methods)
       method->begin_step(step);
     const bool dynamic = scene.time.moves_after(time);

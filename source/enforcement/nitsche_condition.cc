@@ -10,7 +10,8 @@ namespace Impoint
   {
     namespace
     {
-      // In cell sizes: no sliver of material is taken for thinner.
+      // In cell sizes: no sliver of material is taken for thinner. With a
+      // ghost penalty neighbours hold it, too: its factor takes this part.
       constexpr double smallest_width = 1e-13;
     } // namespace
 
@@ -151,7 +152,11 @@ namespace Impoint
         this->boundary->carried().keeps_grid ? h : h * stretched.norm();
       const double width =
         widths[r] > 0 ?
-          std::min(whole, std::max(smallest_width * whole, widths[r])) :
+          std::min(whole,
+                   std::max(std::max(smallest_width,
+                                     this->current.ghost_penalty) *
+                              whole,
+                            widths[r])) :
           whole;
       condition.stiffness =
         factor() / width * held *

@@ -1,4 +1,5 @@
 #include <impoint/measurements/body_path.h>
+#include <impoint/measurements/condition.h>
 #include <impoint/measurements/convergence.h>
 #include <impoint/measurements/energy.h>
 #include <impoint/measurements/field_error.h>
@@ -110,7 +111,13 @@ namespace Impoint
                     "kinetic, strain, and their sum [J]",
                     {"Reference"},
                     "kinetic; strain; total"),
-               row<Convergence>("newton", "iterations and order of convergence", {})};
+               row<Convergence>("newton", "iterations and order of convergence", {}),
+               row<Condition>(
+          "condition",
+          "number of the matrix that was solved with, and with its "
+                 "diagonal scaled to one; costs tens of solves a step",
+          {"Reference"},
+          "the number; scaled")};
       return table;
     }
 

@@ -1,7 +1,8 @@
 """Nitsche's method on quadratic splines and few points: paper P's cantilever (4.1).
 
 Small strains: the error of the tip wherever the clamp cuts its cells, at the hard
-places, too; forces and moments of large strains balance; Newton's iteration and the
+places, too; a ghost penalty bounds the condition number; forces and moments of
+large strains balance; Newton's iteration and the
 non-symmetric form; the contained block of paper I (5.1); a pressed plastic block.
 """
 
@@ -41,6 +42,28 @@ def check_cuts(title, settings, levels, bounds):
         print(f"{title}, h = 2^-{level + 1}, {len(cuts)} cuts: {min(errors.values()):.2e} "
               f"to {errors[worst]:.2e}, at {worst:.6g}", flush=True)
         expect(errors[worst] <= bounds[level], f"{title}: {errors[worst]} at {worst}")
+
+
+def check_ghost_penalty(basis):
+    """With it neither the error nor the matrix knows where the clamp cuts."""
+    found = {}
+    for factor in (0, 0.1):
+        for cut in (1 - 1e-3, 1 - 1e-6, 1 - 1e-9):
+            results = run_scene(SMALL, "ghost", [
+                *QUIET, f"Grid/Basis = {basis}", f"Grid/Ghost penalty = {factor}",
+                "Grid/Refinements = 1", f"Grid/Shift = {-0.25 * cut!r}, -1.075",
+                "Measurements/Names = tip, condition",
+                "Measurements/condition/Quantity = condition"])["results"]
+            found[factor, cut] = results["condition"]["value"], results["tip u_y"]["error"]
+    conditions, errors = (
+        [[found[factor, cut][i] for cut in (1 - 1e-3, 1 - 1e-6, 1 - 1e-9)]
+         for factor in (0, 0.1)] for i in range(2))
+    print(f"{basis}: condition numbers without a ghost penalty", *("%.1e" % c for c in
+          conditions[0]), "with it", *("%.2e" % c for c in conditions[1]), "errors",
+          *("%.2e" % e for e in errors[1]))
+    expect(conditions[0][2] > 1e6 * conditions[0][0], f"{basis}: no need of one")
+    expect(max(conditions[1]) < 1.1 * min(conditions[1]), f"{basis}: condition number")
+    expect(max(errors[1]) < 1.1 * min(errors[1]), f"{basis}: error")
 
 
 def check_balance(settings):
@@ -114,6 +137,8 @@ def main():
     check_cuts("quadratic splines", [], (0, 1, 2), BOUNDS)
     check_cuts("cubic splines", ["Grid/Basis = cubic spline",
                                  "Bodies/beam/Points per direction = 4"], (0,), {0: 1e-5})
+    check_ghost_penalty("linear")
+    check_ghost_penalty("quadratic spline")
     error = tip_error(0, 0.5, ["Boundaries/clamp/Nitsche form = non-symmetric"])
     print(f"non-symmetric, h = 1/2: {error:.2e}")
     expect(error < 1e-3, "non-symmetric")

@@ -48,26 +48,34 @@ def block(cut, method):
           for side in ("left", "bottom", "top", "push")
           for entry in (f"Enforcement = {method}", "Band width = 1e-6")),
         f"Grid/Shift = {10 * cut!r}, 0", "Output/Pictures every = 0",
+        "Measurements/Names = r_u, condition",
+        "Measurements/condition/Quantity = condition",
         "Output/Verbosity = silent", "Bodies/block/Points per direction = 2"]
 
 
-def error_at(case, cut, method):
+def errors_at(case, cut, method):
+    """The error, and condition numbers without and with a scaled diagonal."""
     scene, name, settings = (block(cut, method) if case == "block" else
                              cantilever(case, cut, method))
     status, text, summary = run(scene, settings)
     if status != "done" or summary["counts"]["halved steps"] > 0:
         sys.exit(f"FAILED: {case}, {method} at {cut}: {status} {text}")
-    result = summary["results"][name]
-    return result["value"] if case == "block" else result["error"]
+    results = summary["results"]
+    error = results[name]["value" if case == "block" else "error"]
+    return error, results["condition"]["value"], results["condition scaled"]["value"]
 
 
 def check(case, method):
     """What is wrong, if anything is."""
-    errors = {cut: error_at(case, cut, method) for cut in [*EVEN, *HARD]}
-    median = statistics.median(errors[cut] for cut in EVEN)
+    found = {cut: errors_at(case, cut, method) for cut in [*EVEN, *HARD]}
+    errors = {cut: numbers[0] for cut, numbers in found.items()}
+    median, whole, scaled = (statistics.median(found[cut][i] for cut in EVEN)
+                             for i in range(3))
     worst = max(errors, key=errors.get)
     print(f"{case}, {method}, {len(errors)} cuts: median error {median:.3e}, "
-          f"largest {errors[worst] / median:.2f} times that, at {worst:.6g}",
+          f"largest {errors[worst] / median:.2f} times that, at {worst:.6g}; "
+          f"condition {whole:.1e} to {max(n[1] for n in found.values()):.1e}, "
+          f"scaled {scaled:.1e} to {max(n[2] for n in found.values()):.1e}",
           flush=True)
     bound = EXACT.get(method, 0.) if case == "block" else 0.
     if errors[worst] <= max(bound, 2. * median):

@@ -22,9 +22,10 @@ namespace Impoint
     struct Step
     {
       double                     start = 0, end = 0; // time [s]
-      double                     young  = 0; // [Pa], the stiffest material
-      const ActiveNodes<dim>    *active = nullptr;
-      const MaterialPoints<dim> *points = nullptr;
+      double                     young = 0; // [Pa], the stiffest material
+      double                     ghost_penalty = 0; // factor; 0: none
+      const ActiveNodes<dim>    *active        = nullptr;
+      const MaterialPoints<dim> *points        = nullptr;
     };
 
     /** Strength with which a method adds itself to a matrix. */

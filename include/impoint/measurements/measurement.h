@@ -1,6 +1,7 @@
 #ifndef impoint_measurements_measurement_h
 #define impoint_measurements_measurement_h
 
+#include <impoint/base/condition_numbers.h>
 #include <impoint/base/state_archive.h>
 #include <impoint/enforcement/enforcement.h>
 #include <impoint/measurements/measurement_parameters.h>
@@ -9,6 +10,7 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,6 +43,11 @@ namespace Impoint
       std::vector<BoundaryForce<dim>> forces; // of every boundary, as listed in
                                               // the scene; sums of all ranks
       std::vector<double> residuals; // relative, of the step's iteration
+
+      /** Of the matrix that was solved with last; in follow(). Collective. */
+      std::function<ConditionNumbers()> condition_numbers = []() {
+        return ConditionNumbers();
+      };
     };
 
     /**

@@ -1,7 +1,7 @@
 #ifndef impoint_solver_nonlinear_system_h
 #define impoint_solver_nonlinear_system_h
 
-
+#include <impoint/base/condition_numbers.h>
 #include <impoint/enforcement/conforming.h>
 #include <impoint/solver/assembly.h>
 #include <impoint/solver/method_of_multipliers.h>
@@ -154,6 +154,11 @@ namespace Impoint
     void gather(const unsigned int   k,
                 const Vector        &u,
                 std::vector<double> &cell_u) const;
+
+    /** Of the last tangent, without what conforming boundaries hold; none if it
+     * is not symmetric. Costs tens of solves, more where these iterate.
+     * Collective. */
+    ConditionNumbers condition_numbers();
 
     std::string solver_description() const
     {
