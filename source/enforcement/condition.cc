@@ -68,7 +68,8 @@ namespace Impoint
       normals,
       "Normals of a slip condition: each particle's own, or "
       "averaged at the nodes (P Eq. 54); automatic: nodal where "
-      "the particles' normals differ, else particle.",
+      "the particles' normals differ, but particle where a cell has one mean "
+      "gap of its own ('projected penalty', multipliers that are not shared).",
       Patterns::Selection("automatic|particle|nodal"));
     prm.add_parameter(
       "Releasing",
@@ -156,9 +157,10 @@ namespace Impoint
     prm.declare_entry("Value",
                       "",
                       Patterns::Anything(),
-                      "Prescribed displacement [m] or velocity [m/s]: "
-                      "expressions of x, y, (z,) t separated by ';', of the "
-                      "place at the start of the run; empty: none.");
+                      "Prescribed displacement [m] since t = 0 (what it is then "
+                      "is taken off) or velocity [m/s]: expressions of x, y, "
+                      "(z,) t separated by ';', of the place at the start of "
+                      "the run; empty: none.");
     prm.add_parameter("Value is",
                       value_kind,
                       "What 'Value' means.",
@@ -310,6 +312,20 @@ namespace Impoint
       axis[d] = parameters.rotation_axis[d];
     if (axis.norm() > 0)
       axis /= axis.norm();
+    const auto refuse_steady = [&](const Expression<dim> &motion,
+                                   const std::string     &entry,
+                                   const std::string     &example) {
+      if (motion.is_steady() && !motion.is_zero())
+        throw file.error(parameters.section + "/" + entry,
+                         "'" + entry +
+                           "' does not change with the time t: as it counts "
+                           "from t = 0, the boundary would not move",
+                         "Let it grow, such as '" + example +
+                           "', or remove the entry.");
+    };
+    if (!is_velocity)
+      refuse_steady(value, "Value", "0.01 * t");
+    refuse_steady(angle, "Rotation angle", "0.1 * t");
   }
 
 

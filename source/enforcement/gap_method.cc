@@ -129,8 +129,15 @@ namespace Impoint
       for (unsigned int b = 0; b < multiplier.size(); ++b)
         multiplier[b] =
           this->boundary->vector(b, this->boundary->slots().multiplier);
+      // The mean of n . g in a cell is one condition whatever its normals, and
+      // a turn about the centre of a circle leaves it zero. One of averaged
+      // normals does not, and its force has a moment about that centre.
+      const auto &choice   = this->condition.normals;
+      const bool  one_mean = projected && !shares_constraints();
       if (normal_only)
-        normals.reinit(this->condition.normals, *this, *step.active);
+        normals.reinit(one_mean && choice == "automatic" ? "particle" : choice,
+                       *this,
+                       *step.active);
       if (this->condition.releasing)
         {
           near.resize(this->boundary->n());
@@ -310,7 +317,8 @@ namespace Impoint
         }
       if (u != nullptr && takes_part(r))
         return for_patches(r, [&](const Patch &patch) {
-          store(r, patch, answer(patch, u), patch.gap(u));
+          // neighbours' multipliers shift it anew in the next step
+          store(r, patch, answer(patch, u), patch.gap(u) - jumps.shift(r));
         });
       for (unsigned int b = range.begin; b < range.end; ++b)
         {

@@ -279,24 +279,37 @@ namespace Impoint
 
 
 
-  /** Lumped mass: a diagonal that each node's owner adds. Returns the norm of
-   * the inertia force, which balances all others in free flight. */
+  /** Norm of the inertia force, which balances all others in free flight; of
+   * lumped masses, whichever the balance has. */
   template <int dim>
-  double Assembly<dim>::add_inertia(const Vector &u, const bool tangent_wanted)
+  double Assembly<dim>::inertia_norm(const Vector &u) const
   {
     double norm_square = 0;
+    for (unsigned int i = 0; i < active.n_owned_nodes() * dim; ++i)
+      {
+        const double force =
+          inertia->mass(i / dim) *
+          inertia->balanced_acceleration(i, u.local_element(i));
+        norm_square += force * force;
+      }
+    return std::sqrt(
+      Utilities::MPI::sum(norm_square, active.basis().grid().communicator()));
+  }
+
+
+
+  /** Lumped mass: a diagonal that each node's owner adds. */
+  template <int dim>
+  void Assembly<dim>::add_inertia(const Vector &u, const bool tangent_wanted)
+  {
     for (unsigned int i = 0; i < active.n_owned_nodes(); ++i)
       {
         const double mass = inertia->mass(i);
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double force =
-              mass *
-              inertia->balanced_acceleration(i * dim + d,
-                                             u.local_element(i * dim + d));
-            rest.local_element(i * dim + d) += force;
-            norm_square += force * force;
-          }
+          rest.local_element(i * dim + d) +=
+            mass *
+            inertia->balanced_acceleration(i * dim + d,
+                                           u.local_element(i * dim + d));
         if (tangent_wanted)
           {
             const auto row   = problem->pattern.columns.begin();
@@ -308,8 +321,6 @@ namespace Impoint
               block[d * dim + d] += inertia->alpha() * mass;
           }
       }
-    return std::sqrt(
-      Utilities::MPI::sum(norm_square, active.basis().grid().communicator()));
   }
 
 
@@ -349,9 +360,11 @@ namespace Impoint
 
     assemble_ghost_penalty(u, tangent_wanted, part);
     double scale = external.l2_norm();
+    if (inertia != nullptr)
+      scale = std::max(scale, inertia_norm(u));
     if (inertia != nullptr &&
         (part == Part::constraints || !inertia->consistent()))
-      scale = std::max(scale, add_inertia(u, tangent_wanted));
+      add_inertia(u, tangent_wanted);
     rest.compress(VectorOperation::add);
     scale = std::max(scale, rest.l2_norm());
     rest.zero_out_ghost_values();

@@ -27,7 +27,8 @@ RUNS = {
         *CORNER, "Boundaries/floor/Enforcement = penalty",
         "Boundaries/floor/Polyline = 0 0.3; 0.3 0; 1 0 | 0 1; 0 0.3"],
     "projected penalty slip, corner": [
-        *CORNER, "Boundaries/floor/Polyline = 0 0; 1 0 | 0 1; 0 0"],
+        *CORNER, "Bodies/block/Body force = 0; -400",
+        "Boundaries/floor/Polyline = 0 0; 1 0 | 0 1; 0 0"],
     "augmented Lagrangian": ["Boundaries/floor/Enforcement = "
                              "augmented Lagrangian"],
     "Lagrange multiplier": ["Boundaries/floor/Enforcement = "

@@ -115,7 +115,8 @@ namespace Impoint
 
     CellSystem since_start(const unsigned int k, const CellSystem &system);
 
-    double add_inertia(const Vector &u, const bool tangent_wanted);
+    double inertia_norm(const Vector &u) const;
+    void   add_inertia(const Vector &u, const bool tangent_wanted);
     void   scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
     void   scatter_residual(const unsigned int k);
 
