@@ -154,13 +154,14 @@ namespace Impoint
   /** What is prescribed, and when. */
   void ConditionParameters::declare_motion(EntryHandler &prm)
   {
-    prm.declare_entry("Value",
-                      "",
-                      Patterns::Anything(),
-                      "Prescribed displacement [m] since t = 0 (what it is then "
-                      "is taken off) or velocity [m/s]: expressions of x, y, "
-                      "(z,) t separated by ';', of the place at the start of "
-                      "the run; empty: none.");
+    prm.declare_entry(
+      "Value",
+      "",
+      Patterns::Anything(),
+      "Prescribed displacement [m] since t = 0 (what it is then "
+      "is taken off) or velocity [m/s]: expressions of x, y, "
+      "(z,) t separated by ';', of the place at the start of "
+      "the run; empty: none.");
     prm.add_parameter("Value is",
                       value_kind,
                       "What 'Value' means.",

@@ -307,9 +307,8 @@ namespace Impoint
         const double mass = inertia->mass(i);
         for (unsigned int d = 0; d < dim; ++d)
           rest.local_element(i * dim + d) +=
-            mass *
-            inertia->balanced_acceleration(i * dim + d,
-                                           u.local_element(i * dim + d));
+            mass * inertia->balanced_acceleration(i * dim + d,
+                                                  u.local_element(i * dim + d));
         if (tangent_wanted)
           {
             const auto row   = problem->pattern.columns.begin();
