@@ -10,11 +10,14 @@ namespace Impoint
     {
       // In units of E/h. A linear solve reduces the gap by this factor, and
       // looses its reciprocal in digits of the material's stiffness.
-      // Constraints that cells share differ enough for the smaller factor. With
-      // contact, round-off of the gap beside a large factor would decide on
-      // what sticks and slides.
+      // Constraints that cells share differ enough for the smaller factor.
+      // Contact is content with it, too; less would leave cells with little
+      // material to the few combinations of multipliers that are looked for.
+      // With friction round-off of the gap beside a large factor would decide
+      // on what sticks and slides.
       constexpr double best_factor = 1e6, best_shared_factor = 1e4,
-                       best_factor_of_contact = 1e2;
+                       best_factor_of_contact  = 1e4,
+                       best_factor_of_friction = 1e2;
     } // namespace
 
 
@@ -42,7 +45,9 @@ namespace Impoint
       if (user_chooses_factor)
         law.gamma = this->factor(r);
       else if (!this->is_linear())
-        law.gamma = best_factor_of_contact * this->unit(r);
+        law.gamma = (this->is_symmetric() ? best_factor_of_contact :
+                                            best_factor_of_friction) *
+                    this->unit(r);
       else
         law.gamma =
           this->unit(r) * (this->shares_constraints() &&

@@ -58,6 +58,7 @@ def short():
         yield QUADS, speed, 0.05, METHODS[3], -20
     yield TRIANGLES, 1, 0.5, METHODS[2], -33
     yield HEXES, 1, 0.5, METHODS[0], 23
+    yield HEXES, 10, 0.1, METHODS[3], 23
 
 
 def long():
