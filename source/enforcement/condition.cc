@@ -184,7 +184,7 @@ namespace Impoint
       motion,
       "How the particles move: with the value that they "
       "prescribe, with the material that they hold, or not; "
-      "automatic: a traction and a slip boundary by 'nitsche' with the "
+      "automatic: a traction and a flat slip boundary by 'nitsche' with the "
       "material, others with the value.",
       Patterns::Selection("automatic|with the value|with the material|not"));
     prm.declare_entry("Traction",
@@ -237,6 +237,10 @@ namespace Impoint
             "the centre has " + std::to_string(rotation_centre.size()) +
               " coordinates in " + std::to_string(dim) + "D",
             "Give " + std::to_string(dim) + " numbers.");
+    if (dim == 2 && !rotation_axis.empty())
+      clash("Rotation axis",
+            "a rotation in 2D has no other axis than z",
+            "Remove the entry: it would have no effect.");
     if (dim == 3 && file.is_set(section + "/Rotation angle") &&
         rotation_axis.size() != 3)
       clash("Rotation axis",

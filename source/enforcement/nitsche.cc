@@ -34,6 +34,7 @@ namespace Impoint
                           std::unique_ptr<BoundaryParticles<dim>> particles)
       : Method<dim>(parameters, std::move(motion), std::move(particles))
       , slip(parameters.constraint == "slip")
+      , chooses_motion(parameters.motion == "automatic")
       , sign(sign_of(parameters.nitsche_form, *this->boundary))
     {}
 
@@ -55,6 +56,12 @@ namespace Impoint
         return;
       if (slip)
         normals.reinit(this->condition.normals, *this, *step.active);
+      // Beside a curved wall the normal of a particle that follows the material
+      // is soon another than the wall's where it is.
+      if (slip && chooses_motion &&
+          !one_normal(*this->boundary,
+                      step.active->basis().grid().communicator()))
+        this->condition.motion = "with the value";
       const auto &points = *step.points;
       widths.assign(this->boundary->ranges().size(), 0.);
       for_active_ranges(*this,

@@ -8,35 +8,31 @@ namespace Impoint
 {
   namespace Enforcement
   {
-    namespace
+    template <int dim>
+    bool one_normal(const BoundaryParticles<dim> &boundary,
+                    const MPI_Comm                communicator)
     {
-      /** Whether all normals of all ranks are alike: a flat wall. */
-      template <int dim>
-      bool one_normal(const BoundaryParticles<dim> &boundary,
-                      const MPI_Comm                communicator)
-      {
-        Tensor<1, dim> lowest, highest;
+      Tensor<1, dim> lowest, highest;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          lowest[d]  = 2;
+          highest[d] = -2;
+        }
+      for (unsigned int b = 0; b < boundary.n(); ++b)
         for (unsigned int d = 0; d < dim; ++d)
           {
-            lowest[d]  = 2;
-            highest[d] = -2;
+            const double n = boundary.vector(b, boundary.slots().normal)[d];
+            lowest[d]      = std::min(lowest[d], n);
+            highest[d]     = std::max(highest[d], n);
           }
-        for (unsigned int b = 0; b < boundary.n(); ++b)
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const double n = boundary.vector(b, boundary.slots().normal)[d];
-              lowest[d]      = std::min(lowest[d], n);
-              highest[d]     = std::max(highest[d], n);
-            }
-        double largest_difference = 0;
-        for (unsigned int d = 0; d < dim; ++d)
-          largest_difference =
-            std::max(largest_difference,
-                     Utilities::MPI::max(highest[d], communicator) -
-                       Utilities::MPI::min(lowest[d], communicator));
-        return largest_difference < 1e-10;
-      }
-    } // namespace
+      double largest_difference = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        largest_difference =
+          std::max(largest_difference,
+                   Utilities::MPI::max(highest[d], communicator) -
+                     Utilities::MPI::min(lowest[d], communicator));
+      return largest_difference < 1e-10;
+    }
 
 
 
@@ -76,6 +72,8 @@ namespace Impoint
         }
     }
 
+    template bool one_normal(const BoundaryParticles<2> &, const MPI_Comm);
+    template bool one_normal(const BoundaryParticles<3> &, const MPI_Comm);
     template class NodalNormals<2>;
     template class NodalNormals<3>;
   } // namespace Enforcement

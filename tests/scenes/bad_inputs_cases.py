@@ -97,6 +97,8 @@ SCENES = [
      "no boundary 'clam'.*mean 'clamp'"),
     (CLAMP, CLAMP + "\n    set Value = 0; 0.01", "'Value' does not change.*0.01 . t"),
     (CLAMP, CLAMP + "\n    set Rotation angle = 0.1", "angle' does not change"),
+    (CLAMP, "set Rotation axis = 0, 0, 1\n    set Rotation angle = t\n    " + CLAMP,
+     "in 2D has no other axis"),
     (CLAMP, "set Constraint = roller\n    " + CLAMP, "cannot be a 'roller'"),
     (CLAMP, "set Components = x\n    " + CLAMP, "'Components' is set though"),
     (CLAMP, "set Traction = 0; 1\n    " + CLAMP, "'Traction' is set though"),

@@ -64,7 +64,8 @@ def spinning_block():
         expect(results["way angle"]["error"] < 2e-3, f"{basis}: angle")
 
 
-for method in ("projected penalty", "lagrange multiplier", "implicit boundary"):
+for method in ("projected penalty", "lagrange multiplier", "implicit boundary",
+               "nitsche"):
     turned_wheel(method)
 turned_wheel("lagrange multiplier", "Superfluous constraints = keep")
 turned_wheel("augmented Lagrangian", "Superfluous constraints = stabilise")

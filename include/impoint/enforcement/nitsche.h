@@ -106,7 +106,7 @@ namespace Impoint
                                 const Condition &condition,
                                 CellSystem      &system) const;
 
-      const bool          slip;
+      const bool          slip, chooses_motion;
       const double        sign; // of the adjoint terms
       NodalNormals<dim>   normals;
       std::vector<double> widths; // of the material, per range; 0: none

@@ -9,6 +9,13 @@ namespace Impoint
 {
   namespace Enforcement
   {
+    /** Whether all normals of all ranks are alike: a flat wall. */
+    template <int dim>
+    bool one_normal(const BoundaryParticles<dim> &boundary,
+                    const MPI_Comm                communicator);
+
+
+
     /**
      * The directions in which a slip boundary holds the nodes: the particles'
      * own normals, or averages at the nodes (P Eq. 54), without which two
