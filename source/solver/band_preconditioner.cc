@@ -181,20 +181,31 @@ namespace Impoint
     for (unsigned int node = 0; node < n_local; ++node)
       kept[node] = !empty[node];
     const NodeExchange outer_nodes = nodes.select(kept);
-    if (problem.lines.empty())
-      {
-        v_cycle_name = "algebraic multigrid";
-        v_cycle      = std::make_unique<AlgebraicMultigrid<dim>>(
-          outer.pattern, outer_nodes, select_nodes(problem.points, local));
-      }
+    v_cycle_name = "geometric multigrid";
+    if (!problem.lines.empty())
+      v_cycle =
+        std::make_unique<Multigrid<dim>>(outer.pattern,
+                                         outer_nodes,
+                                         select_nodes(problem.lattice, local),
+                                         problem.lines);
     else
       {
-        v_cycle_name = "geometric multigrid";
-        v_cycle =
-          std::make_unique<Multigrid<dim>>(outer.pattern,
-                                           outer_nodes,
-                                           select_nodes(problem.lattice, local),
-                                           problem.lines);
+        const std::vector<Point<dim>> points =
+          select_nodes(problem.points, local);
+        auto multigrid = std::make_unique<Multigrid<dim>>(
+          outer.pattern,
+          outer_nodes,
+          CoveringLattice<dim>(outer.pattern, outer_nodes, points));
+        if (multigrid->coarsens())
+          v_cycle = std::move(multigrid);
+        else
+          {
+            v_cycle_name = "algebraic multigrid";
+            v_cycle =
+              std::make_unique<AlgebraicMultigrid<dim>>(outer.pattern,
+                                                        outer_nodes,
+                                                        points);
+          }
       }
     outer_right.resize(local.size() * dim);
     outer_solution.resize(local.size() * dim);

@@ -20,7 +20,40 @@ namespace Impoint
   {
     for (const SplineLine &line : lines)
       coarse_lines.emplace_back(line.degree, (line.n_cells + 1) / 2);
-    find_parents(lattice, lines);
+    build(pattern, nodes, [&](const unsigned int node, const unsigned int d) {
+      Parents parents;
+      parents.n = lines[d].refine(coarse_lines[d],
+                                  lattice[node][d],
+                                  parents.first,
+                                  parents.factors);
+      return parents;
+    });
+  }
+
+  template <int dim>
+  LatticeCoarsening<dim>::LatticeCoarsening(const BlockPattern &pattern,
+                                            const NodeExchange &nodes,
+                                            const CoveringLattice<dim> &lattice)
+    : coarse_lines(lattice.lines)
+  {
+    build(pattern, nodes, [&](const unsigned int node, const unsigned int d) {
+      const double place = lattice.places[node][d];
+      Parents      parents;
+      parents.first      = static_cast<int>(place);
+      parents.factors[1] = place - parents.first;
+      parents.factors[0] = 1 - parents.factors[1];
+      parents.n          = parents.factors[1] > 0 ? 2 : 1;
+      return parents;
+    });
+  }
+
+  template <int dim>
+  template <typename ParentsOf>
+  void LatticeCoarsening<dim>::build(const BlockPattern &pattern,
+                                     const NodeExchange &nodes,
+                                     const ParentsOf    &parents_of)
+  {
+    find_parents(pattern.n_rows() + nodes.n_ghosts(), parents_of);
     if (!nodes.alone())
       share_parents(nodes.communicator(), pattern.n_rows());
     find_half_products(pattern);
@@ -32,32 +65,30 @@ namespace Impoint
   }
 
   template <int dim>
-  void
-  LatticeCoarsening<dim>::find_parents(const Lattice                 &lattice,
-                                       const std::vector<SplineLine> &lines)
+  template <typename ParentsOf>
+  void LatticeCoarsening<dim>::find_parents(const std::size_t n_nodes,
+                                            const ParentsOf  &parents_of)
   {
     // Parents first as places, then numbered in lexicographic order.
     Lattice places;
     parent_start.assign(1, 0);
-    for (const std::array<int, dim> &node : lattice)
+    for (unsigned int node = 0; node < n_nodes; ++node)
       {
-        int          first[dim], n[dim];
-        double       factors[dim][SplineLine::max_degree + 1];
+        Parents      found[dim];
         unsigned int n_parents = 1;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            n[d] =
-              lines[d].refine(coarse_lines[d], node[d], first[d], factors[d]);
-            n_parents *= n[d];
+            found[d] = parents_of(node, d);
+            n_parents *= found[d].n;
           }
         for (unsigned int i = 0; i < n_parents; ++i)
           {
             std::array<int, dim> place;
             double               weight = 1;
-            for (unsigned int d = 0, rest = i; d < dim; rest /= n[d], ++d)
+            for (unsigned int d = 0, rest = i; d < dim; rest /= found[d].n, ++d)
               {
-                place[d] = first[d] + rest % n[d];
-                weight *= factors[d][rest % n[d]];
+                place[d] = found[d].first + rest % found[d].n;
+                weight *= found[d].factors[rest % found[d].n];
               }
             places.push_back(place);
             weights.push_back(weight);

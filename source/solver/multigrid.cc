@@ -153,29 +153,54 @@ namespace Impoint
                             const Lattice                 &lattice,
                             const std::vector<SplineLine> &lines)
   {
+    make_levels(pattern, nodes, lattice, lines);
+  }
+
+  template <int dim>
+  Multigrid<dim>::Multigrid(const BlockPattern         &pattern,
+                            const NodeExchange         &nodes,
+                            const CoveringLattice<dim> &lattice)
+  {
+    make_levels(pattern, nodes, lattice);
+  }
+
+  template <int dim>
+  template <typename... LatticeOf>
+  void Multigrid<dim>::make_levels(const BlockPattern &pattern,
+                                   const NodeExchange &nodes,
+                                   const LatticeOf &...lattice)
+  {
     const auto count = [&](const BlockPattern &of) {
       return Utilities::MPI::sum(of.n_rows(), nodes.communicator());
     };
-    const BlockPattern            *current         = &pattern;
-    const NodeExchange            *current_nodes   = &nodes;
-    const Lattice                 *current_lattice = &lattice;
-    const std::vector<SplineLine> *current_lines   = &lines;
-    unsigned int                   n_fine          = count(pattern);
-    while (n_fine * dim > bottom_unknowns)
+    unsigned int n_fine = count(pattern);
+    if (n_fine * dim <= bottom_unknowns)
       {
-        levels.push_back(std::make_unique<Level>(
-          *current, *current_nodes, *current_lattice, *current_lines));
-        const LatticeCoarsening<dim> &coarsening = levels.back()->coarsening;
-        current                                  = &coarsening.pattern();
-        current_nodes                            = &coarsening.nodes();
-        current_lattice                          = &coarsening.lattice();
-        current_lines                            = &coarsening.lines();
-        const unsigned int n_coarse              = count(*current);
-        if (n_coarse > least_coarsening * n_fine)
+        bottom.new_pattern(pattern, nodes);
+        return;
+      }
+    levels.push_back(std::make_unique<Level>(pattern, nodes, lattice...));
+    while (true)
+      {
+        const LatticeCoarsening<dim> &coarse = levels.back()->coarsening;
+        const unsigned int            n_coarse = count(coarse.pattern());
+        coarsens_well &= n_coarse <= least_coarsening * n_fine;
+        if (n_coarse * dim <= bottom_unknowns || !coarsens_well)
           break;
         n_fine = n_coarse;
+        levels.push_back(std::make_unique<Level>(coarse.pattern(),
+                                                 coarse.nodes(),
+                                                 coarse.lattice(),
+                                                 coarse.lines()));
       }
-    bottom.new_pattern(*current, *current_nodes);
+    const LatticeCoarsening<dim> &last = levels.back()->coarsening;
+    bottom.new_pattern(last.pattern(), last.nodes());
+  }
+
+  template <int dim>
+  bool Multigrid<dim>::coarsens() const
+  {
+    return coarsens_well;
   }
 
   template <int dim>

@@ -1,6 +1,5 @@
+#include <impoint/solver/quantile.h>
 #include <impoint/solver/slivers.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 
@@ -36,31 +35,6 @@ namespace Impoint
           largest = std::max(largest, diagonal[d]);
       return largest;
     }
-
-    /** The median over all ranks of what is not negative, to a thousandth; 0 of
-     * nothing. */
-    double median(const std::vector<double> &values, const MPI_Comm comm)
-    {
-      constexpr double accuracy = 1e-3;
-      const auto       n_below  = [&](const double limit) {
-        const std::size_t n =
-          std::count_if(values.begin(), values.end(), [&](const double value) {
-            return value >= 0 && value < limit;
-          });
-        return Utilities::MPI::sum(n, comm);
-      };
-      double low = 0, high = 0;
-      for (const double value : values)
-        high = std::max(high, value);
-      high                   = Utilities::MPI::max(high, comm);
-      const std::size_t half = n_below(2 * high) / 2;
-      while (high - low > accuracy * high)
-        {
-          const double middle                   = (low + high) / 2;
-          (n_below(middle) > half ? high : low) = middle;
-        }
-      return high;
-    }
   } // namespace
 
   template <int dim>
@@ -72,7 +46,8 @@ namespace Impoint
     for (unsigned int node = 0; node < diagonal.size(); ++node)
       diagonal[node] = free_diagonal(matrix, node);
 
-    const double      threshold = part * median(diagonal, nodes.communicator());
+    const double      threshold =
+      part * quantile(diagonal, 0.5, nodes.communicator());
     std::vector<char> found(diagonal.size() + nodes.n_ghosts());
     for (unsigned int node = 0; node < diagonal.size(); ++node)
       found[node] = diagonal[node] >= 0 && diagonal[node] < threshold;

@@ -2,6 +2,7 @@
 #define impoint_solver_lattice_coarsening_h
 
 #include <impoint/grid/spline_line.h>
+#include <impoint/solver/covering_lattice.h>
 #include <impoint/solver/owned_rows.h>
 
 #include <array>
@@ -31,6 +32,12 @@ namespace Impoint
                       const Lattice                 &lattice,
                       const std::vector<SplineLine> &lines);
 
+    /** From nodes without a lattice to one that covers them: what is coarse is
+     * a sum of fine functions by its values at the nodes. */
+    LatticeCoarsening(const BlockPattern         &pattern,
+                      const NodeExchange         &nodes,
+                      const CoveringLattice<dim> &lattice);
+
     /** coarse = P^T fine P. */
     void galerkin(const BlockMatrix<dim> &fine, BlockMatrix<dim> &coarse) const;
 
@@ -57,8 +64,21 @@ namespace Impoint
       std::vector<std::size_t> links; // where the coarse node stands in parents
     };
 
-    void     find_parents(const Lattice                 &lattice,
-                          const std::vector<SplineLine> &lines);
+    /** Of a node, along one of the lines: the first parent, how many follow
+     * one another, their factors. */
+    struct Parents
+    {
+      int    first, n;
+      double factors[SplineLine::max_degree + 1];
+    };
+
+    /** Makes everything from what @p parents says of nodes and directions. */
+    template <typename ParentsOf>
+    void     build(const BlockPattern &pattern,
+                   const NodeExchange &nodes,
+                   const ParentsOf    &parents_of);
+    template <typename ParentsOf>
+    void     find_parents(const std::size_t n_nodes, const ParentsOf &parents_of);
     void     share_parents(const MPI_Comm comm, const unsigned int n_owned);
     void     own_rows();
     Children find_children() const;

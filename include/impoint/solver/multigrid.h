@@ -54,8 +54,9 @@ namespace Impoint
   };
 
   /**
-   * Geometric multigrid on a Cartesian lattice: Galerkin products, one forward
-   * and one backward sweep of Gauss-Seidel a level, a factor at the bottom.
+   * Geometric multigrid on a Cartesian lattice, that of the nodes or one that
+   * covers them: Galerkin products, one forward and one backward sweep of
+   * Gauss-Seidel a level, a factor at the bottom.
    */
   template <int dim>
   class Multigrid : public VCycle<dim>
@@ -69,6 +70,16 @@ namespace Impoint
               const Lattice                 &lattice,
               const std::vector<SplineLine> &lines);
 
+    /** The nodes of @p pattern are covered by @p lattice. */
+    Multigrid(const BlockPattern         &pattern,
+              const NodeExchange         &nodes,
+              const CoveringLattice<dim> &lattice);
+
+    /** Whether each level is a part of the one above that is worth its sweeps;
+     * otherwise the last has a factor whatever its size. A lattice does not
+     * cover grids well whose cells differ much in size. */
+    bool coarsens() const;
+
     void new_matrix(const BlockMatrix<dim> &matrix) override;
 
     void vmult(const std::vector<double> &r,
@@ -77,12 +88,12 @@ namespace Impoint
   private:
     struct Level
     {
-      Level(const BlockPattern            &pattern,
-            const NodeExchange            &nodes,
-            const Lattice                 &lattice,
-            const std::vector<SplineLine> &lines)
+      template <typename... LatticeOf>
+      Level(const BlockPattern &pattern,
+            const NodeExchange &nodes,
+            const LatticeOf &...lattice)
         : nodes(nodes)
-        , coarsening(pattern, nodes, lattice, lines)
+        , coarsening(pattern, nodes, lattice...)
       {}
 
       const NodeExchange     nodes;
@@ -93,12 +104,18 @@ namespace Impoint
       mutable std::vector<double> residual, coarse_right, coarse_solution;
     };
 
+    template <typename... LatticeOf>
+    void make_levels(const BlockPattern &pattern,
+                     const NodeExchange &nodes,
+                     const LatticeOf &...lattice);
+
     void cycle(const unsigned int         level,
                const std::vector<double> &b,
                std::vector<double>       &x) const;
 
     std::vector<std::unique_ptr<Level>> levels; // finest first
     GatheredFactor<dim>                 bottom;
+    bool                                coarsens_well = true;
   };
 } // namespace Impoint
 
