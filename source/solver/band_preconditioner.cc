@@ -181,7 +181,7 @@ namespace Impoint
     for (unsigned int node = 0; node < n_local; ++node)
       kept[node] = !empty[node];
     const NodeExchange outer_nodes = nodes.select(kept);
-    v_cycle_name = "geometric multigrid";
+    v_cycle_name                   = "geometric multigrid";
     if (!problem.lines.empty())
       v_cycle =
         std::make_unique<Multigrid<dim>>(outer.pattern,
@@ -201,10 +201,9 @@ namespace Impoint
         else
           {
             v_cycle_name = "algebraic multigrid";
-            v_cycle =
-              std::make_unique<AlgebraicMultigrid<dim>>(outer.pattern,
-                                                        outer_nodes,
-                                                        points);
+            v_cycle = std::make_unique<AlgebraicMultigrid<dim>>(outer.pattern,
+                                                                outer_nodes,
+                                                                points);
           }
       }
     outer_right.resize(local.size() * dim);

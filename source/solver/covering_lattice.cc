@@ -14,7 +14,7 @@ namespace Impoint
     /** Of the cells' size, as a third of the nodes see it: those between the
      * vertices of elements of degree 2 see less of their cell, nodes with
      * couplings beyond their cells more. */
-    constexpr double part = 1. / 3;
+    constexpr double part       = 1. / 3;
     constexpr double coarsening = 2;
 
     /** Where nodes are meant to meet the lattice, round-off would have them
@@ -55,9 +55,9 @@ namespace Impoint
           }
         lower = Utilities::MPI::min(lower, nodes.communicator());
         upper = Utilities::MPI::max(upper, nodes.communicator());
-        const double size = coarsening * quantile(reaches(pattern, points, d),
-                                                  part,
-                                                  nodes.communicator());
+        const double size =
+          coarsening *
+          quantile(reaches(pattern, points, d), part, nodes.communicator());
         const double n_cells = size > 0 ? std::ceil((upper - lower) / size) : 1;
         lines.emplace_back(1, std::max(1, static_cast<int>(n_cells)));
         for (Point<dim> &place : places)

@@ -31,8 +31,8 @@ namespace Impoint
   }
 
   template <int dim>
-  LatticeCoarsening<dim>::LatticeCoarsening(const BlockPattern &pattern,
-                                            const NodeExchange &nodes,
+  LatticeCoarsening<dim>::LatticeCoarsening(const BlockPattern         &pattern,
+                                            const NodeExchange         &nodes,
                                             const CoveringLattice<dim> &lattice)
     : coarse_lines(lattice.lines)
   {

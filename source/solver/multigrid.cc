@@ -182,16 +182,14 @@ namespace Impoint
     levels.push_back(std::make_unique<Level>(pattern, nodes, lattice...));
     while (true)
       {
-        const LatticeCoarsening<dim> &coarse = levels.back()->coarsening;
+        const LatticeCoarsening<dim> &coarse   = levels.back()->coarsening;
         const unsigned int            n_coarse = count(coarse.pattern());
         coarsens_well &= n_coarse <= least_coarsening * n_fine;
         if (n_coarse * dim <= bottom_unknowns || !coarsens_well)
           break;
         n_fine = n_coarse;
-        levels.push_back(std::make_unique<Level>(coarse.pattern(),
-                                                 coarse.nodes(),
-                                                 coarse.lattice(),
-                                                 coarse.lines()));
+        levels.push_back(std::make_unique<Level>(
+          coarse.pattern(), coarse.nodes(), coarse.lattice(), coarse.lines()));
       }
     const LatticeCoarsening<dim> &last = levels.back()->coarsening;
     bottom.new_pattern(last.pattern(), last.nodes());
@@ -255,11 +253,37 @@ namespace Impoint
     level.nodes.update(x);
     level.smoother.residual(x, level.residual);
     level.coarsening.restrict(level.residual, level.coarse_right);
-    level.coarse_solution.resize(level.coarsening.lattice().size() * dim);
-    cycle(level_index + 1, level.coarse_right, level.coarse_solution);
+    solve_coarse(level_index, level);
     level.coarsening.prolongate(level.coarse_solution, x);
     level.nodes.update(x);
     level.smoother.backward(b, x);
+  }
+
+  /** Two cycles of the levels below, unless these are but a factor: one alone
+   * falls behind on slender bodies, which the functions of a lattice with
+   * larger cells can't bend (iterations of a beam of 8 : 1 : 1 grow from 13 to
+   * 17 in place of 12 to 12 from 1e4 to 1e5 unknowns). */
+  template <int dim>
+  void Multigrid<dim>::solve_coarse(const unsigned int level_index,
+                                    const Level       &level) const
+  {
+    std::vector<double> &right = level.coarse_right, &x = level.coarse_solution;
+    x.resize(level.coarsening.lattice().size() * dim);
+    cycle(level_index + 1, right, x);
+    if (level_index + 1 == levels.size())
+      return;
+
+    level.coarsening.nodes().update(x);
+    std::vector<double> &product = level.coarse_product,
+                        &change  = level.coarse_change;
+    product.resize(level.coarse_matrix.pattern->n_rows() * dim);
+    level.coarse_matrix.vmult(x.data(), product.data());
+    for (std::size_t i = 0; i < product.size(); ++i)
+      right[i] -= product[i];
+    change.resize(x.size());
+    cycle(level_index + 1, right, change);
+    for (std::size_t i = 0; i < product.size(); ++i)
+      x[i] += change[i];
   }
 
   template class GaussSeidel<2>;

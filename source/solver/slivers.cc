@@ -46,7 +46,7 @@ namespace Impoint
     for (unsigned int node = 0; node < diagonal.size(); ++node)
       diagonal[node] = free_diagonal(matrix, node);
 
-    const double      threshold =
+    const double threshold =
       part * quantile(diagonal, 0.5, nodes.communicator());
     std::vector<char> found(diagonal.size() + nodes.n_ghosts());
     for (unsigned int node = 0; node < diagonal.size(); ++node)

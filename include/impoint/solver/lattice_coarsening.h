@@ -74,13 +74,13 @@ namespace Impoint
 
     /** Makes everything from what @p parents says of nodes and directions. */
     template <typename ParentsOf>
-    void     build(const BlockPattern &pattern,
-                   const NodeExchange &nodes,
-                   const ParentsOf    &parents_of);
+    void build(const BlockPattern &pattern,
+               const NodeExchange &nodes,
+               const ParentsOf    &parents_of);
     template <typename ParentsOf>
-    void     find_parents(const std::size_t n_nodes, const ParentsOf &parents_of);
-    void     share_parents(const MPI_Comm comm, const unsigned int n_owned);
-    void     own_rows();
+    void find_parents(const std::size_t n_nodes, const ParentsOf &parents_of);
+    void share_parents(const MPI_Comm comm, const unsigned int n_owned);
+    void own_rows();
     Children find_children() const;
     void multiply(const BlockMatrix<dim> &fine, BlockMatrix<dim> &part) const;
     void find_half_products(const BlockPattern &fine);

@@ -55,8 +55,8 @@ namespace Impoint
 
   /**
    * Geometric multigrid on a Cartesian lattice, that of the nodes or one that
-   * covers them: Galerkin products, one forward and one backward sweep of
-   * Gauss-Seidel a level, a factor at the bottom.
+   * covers them: Galerkin products, W-cycles with one forward and one
+   * backward sweep of Gauss-Seidel a level, a factor at the bottom.
    */
   template <int dim>
   class Multigrid : public VCycle<dim>
@@ -101,7 +101,8 @@ namespace Impoint
       LatticeCoarsening<dim> coarsening;
       BlockMatrix<dim>       coarse_matrix;
 
-      mutable std::vector<double> residual, coarse_right, coarse_solution;
+      mutable std::vector<double> residual, coarse_right, coarse_solution,
+        coarse_product, coarse_change;
     };
 
     template <typename... LatticeOf>
@@ -112,6 +113,8 @@ namespace Impoint
     void cycle(const unsigned int         level,
                const std::vector<double> &b,
                std::vector<double>       &x) const;
+
+    void solve_coarse(const unsigned int level_index, const Level &level) const;
 
     std::vector<std::unique_ptr<Level>> levels; // finest first
     GatheredFactor<dim>                 bottom;
