@@ -54,6 +54,17 @@ void thin_slivers()
   compare("3D, thin slivers", block);
 }
 
+/** Nodes whose distances differ too much for a lattice to cover them. */
+void graded()
+{
+  Block<3> block(Settings{8, false, true, false});
+  block.set_penalty(1e4);
+  for (Point<3> &point : block.problem.points)
+    for (unsigned int d = 0; d < 3; ++d)
+      point[d] = std::pow(point[d], 6);
+  compare("3D, graded", block);
+}
+
 /** Nodes at the far end fixed, with diagonals far from all others. */
 void conforming()
 {
@@ -87,6 +98,7 @@ int main(int argc, char **argv)
   stiffnesses<3>(Settings{8});
   stiffnesses<3>(Settings{8, true, true, false});
   thin_slivers();
+  graded();
   conforming();
   for (const std::string kind : {"direct", "iterative"})
     {
