@@ -69,7 +69,7 @@ namespace Impoint
                                       const LinearProblem<dim> &local) const
   {
     return solver.iterative(active.unknowns()->size(),
-                            !active.basis().lines().empty(),
+                            active.basis().lines(),
                             local.serves_long);
   }
 

@@ -90,11 +90,12 @@ namespace Impoint
     /** Tells that the pattern (and with it points, lattice) changed. */
     void new_pattern(const LinearProblem<dim> &problem);
 
-    /** Whether moderate is wanted for a problem of this size. Without a lattice
-     * or with matrices that serve long iterating pays later. */
-    bool iterative(const std::size_t n_unknowns,
-                   const bool        on_lattice,
-                   const bool        serves_long) const;
+    /** Whether moderate is wanted for a problem of this size on @p lines. With
+     * smooth functions, without a lattice, or with matrices that serve long
+     * iterating pays later. */
+    bool iterative(const std::size_t              n_unknowns,
+                   const std::vector<SplineLine> &lines,
+                   const bool                     serves_long) const;
 
     /** Tells that the matrix changed; a factor kept from before may go on
      * serving as preconditioner. */
