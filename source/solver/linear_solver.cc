@@ -18,32 +18,27 @@ namespace Impoint
   namespace
   {
     /**
-     * Unknowns from which 'automatic' iterates, on a lattice of functions of
-     * that degree, or 0: without one. For one solve with one matrix
+     * Unknowns from which 'automatic' iterates, on a lattice of these lines or
+     * without one. For one solve with one matrix
      * (tests/benchmarks/linear_solvers.cc and iterations, CPU time of one core,
      * OpenBLAS) both cost the same at about 4e3 unknowns in 3D and below 3e3 in
      * 2D on a lattice of linear functions; of quadratic ones, at 1.5e4 in 3D;
-     * of cubic ones, where the factor is twice as fast at 1.1e4, beyond that
-     * (extrapolated); without a lattice, between 6e3 and 2e4 in 3D and at 2e4
-     * in 2D. A factor serves further solves at a fifteenth to a quarter of an
-     * iteration's price and minds the conditioning less, so 2D prefers it while
-     * it costs no more than a tenth of a second, if it serves long. If every
-     * iteration of Newton's method asks for a new one, iterating takes half of
-     * the time at 7e3 unknowns and a third at 3e4. Several ranks iterate
-     * together from the same sizes: on two, both ways take about the same at
-     * 6e3 unknowns in 3D, and iterating a third of the time at 5e4.
+     * of cubic ones beyond 1.1e4, where the factor is twice as fast; without a
+     * lattice, from 6e3 to 2e4 in 3D and at 2e4 in 2D. A factor serves further
+     * solves at a fifteenth to a quarter of an iteration's price and minds the
+     * conditioning less, so 2D prefers it while it costs no more than a tenth
+     * of a second, if it serves long. If every iteration of Newton's method
+     * asks for a new one, iterating takes half of the time at 7e3 unknowns and
+     * a third at 3e4. Several ranks iterate together from the same sizes.
      */
     template <int dim>
-    std::size_t iterate_from(const unsigned int degree, const bool serves_long)
+    std::size_t iterate_from(const std::vector<SplineLine> &lines,
+                             const bool                     serves_long)
     {
+      const int degree = lines.empty() ? 0 : lines[0].degree;
       if (dim == 2)
         return serves_long || degree != 1 ? 40000 : 5000;
       return degree == 1 ? 6000 : degree == 3 ? 60000 : 15000;
-    }
-
-    unsigned int degree_of_lattice(const std::vector<SplineLine> &lines)
-    {
-      return lines.empty() ? 0 : lines[0].degree;
     }
 
     /** An old factor may iterate for this part of the time that a
@@ -212,8 +207,7 @@ namespace Impoint
   {
     if (!iterative || parameters.kind != "automatic" ||
         !problem.nodes.alone() ||
-        problem.n_unknowns() >=
-          iterate_from<dim>(degree_of_lattice(problem.lines), true))
+        problem.n_unknowns() >= iterate_from<dim>(problem.lines, true))
       return false;
     iterative = false;
     factor.new_pattern(problem.pattern);
@@ -285,8 +279,7 @@ namespace Impoint
     const std::string &kind = implementation->parameters.kind;
     return kind == "iterative" ||
            (kind == "automatic" &&
-            n_unknowns >=
-              iterate_from<dim>(degree_of_lattice(lines), serves_long));
+            n_unknowns >= iterate_from<dim>(lines, serves_long));
   }
 
   template <int dim>

@@ -109,6 +109,10 @@ def has_checkpoint(folder):
 def kill_and_resume(title, scene, ranks, n_kills, others, longest=0.7):
     """Between kills it runs for at most the part longest of the whole."""
     whole, killed = Path(f"{title}-{ranks}"), Path(f"{title}-{ranks}-killed")
+    for left_over in (whole, killed):  # by an earlier call, of another version
+        shutil.rmtree(left_over, ignore_errors=True)
+    for left_over in (whole, killed):  # by an earlier call, of another version
+        shutil.rmtree(left_over, ignore_errors=True)
     start = time.monotonic()
     finish([*scene, "--output", whole, "--overwrite"], ranks)
     duration = time.monotonic() - start
