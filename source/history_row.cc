@@ -1,5 +1,4 @@
 #include <impoint/history_row.h>
-#include <impoint/measurements/totals.h>
 
 #include <string>
 
@@ -13,10 +12,8 @@ namespace Impoint
               const std::vector<std::unique_ptr<Measurements::Measurement<dim>>>
                 &measurements)
   {
-    const auto totals =
-      Measurements::totals(state.points,
-                           state.active.basis().grid().communicator());
-    HistoryRow row;
+    const auto &totals = state.totals;
+    HistoryRow  row;
     row.emplace_back("step", counters.steps);
     row.emplace_back("time", state.time);
     row.emplace_back("dt", state.time_step);

@@ -93,6 +93,7 @@ namespace Impoint
       resume(read_newest_checkpoint(folder));
     else
       {
+        totals = Measurements::totals(*points, comm);
         // Finds probes without material, before anything is written.
         const auto state = this->state();
         for (const auto &measurement : measurements)

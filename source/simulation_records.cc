@@ -21,6 +21,7 @@ namespace Impoint
             last_step,
             forces,
             newton->residuals(),
+            totals,
             [this]() { return system->condition_numbers(); }};
   }
 

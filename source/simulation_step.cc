@@ -144,7 +144,8 @@ namespace Impoint
   void Simulation<dim>::find_new_places()
   {
     ScopedSeconds timer(seconds.locate);
-    if (!scene.grid.is_kept())
+    auto         &places = end_states.places;
+    if (!end_states.are_kept() && !scene.grid.is_kept())
       new_places(*points, active, u, places);
     counters.searches += points->find(places, "material point");
     std::vector<double> cell_u;
@@ -204,8 +205,18 @@ namespace Impoint
           warn(text);
       }
     {
-      ScopedSeconds timer(seconds.update);
-      update_points(active, u, moves ? &inertia : nullptr, end_states, *points);
+      ScopedSeconds                timer(seconds.update);
+      Measurements::TotalsSum<dim> sum(*points);
+      update_points<dim>(active,
+                         u,
+                         moves ? &inertia : nullptr,
+                         end_states,
+                         *points,
+                         [&](const auto &range) {
+                           sum.add(range);
+                           points->renew_supports(range);
+                         });
+      totals = sum.of_all_ranks(comm);
       if (moves && scene.grid.is_kept())
         inertia.end_step(u);
     }

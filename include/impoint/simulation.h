@@ -121,10 +121,10 @@ namespace Impoint
     std::chrono::steady_clock::time_point last_checkpoint;
     double                                earlier_seconds = 0;
     Vector                                u;
-    Vector                  kept_u; // of a kept grid\'s nodes since the start
-    std::vector<Point<dim>> places; // of the points
+    Vector kept_u; // of a kept grid's nodes since the start
     std::vector<std::vector<Point<dim>>>          boundary_places; // per method
     std::vector<Measurements::BoundaryForce<dim>> forces;
+    Measurements::Totals<dim>                     totals;
     RunRecord                                     run_record;
   };
 } // namespace Impoint

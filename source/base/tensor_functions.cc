@@ -1,7 +1,6 @@
 #include <impoint/base/exceptions.h>
 #include <impoint/base/tensor_functions.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -72,26 +71,28 @@ namespace Impoint
     for (int i = 0; i < dim; ++i)
       result.directions[i][i] = 1;
 
-    VoigtVector<dim> A      = symmetric;
-    const double negligible = 0.25 * std::numeric_limits<double>::epsilon() *
-                              std::numeric_limits<double>::epsilon() *
-                              voigt_square<dim>(symmetric);
-
-    // in 2D one rotation is the exact answer, in 3D about four sweeps
-    constexpr unsigned int max_sweeps = 30;
-    for (unsigned int sweep = 0;
-         sweep < max_sweeps && off_diagonal_square<dim>(A) > negligible;
-         ++sweep)
+    VoigtVector<dim> A = symmetric;
+    if constexpr (dim == 2) // one rotation is the exact answer
+      jacobi_rotation<0, 1, dim>(A, result.directions);
+    else
       {
-        jacobi_rotation<0, 1, dim>(A, result.directions);
-        if constexpr (dim == 3)
+        const double negligible =
+          0.25 * std::numeric_limits<double>::epsilon() *
+          std::numeric_limits<double>::epsilon() * voigt_square<dim>(symmetric);
+        // about four sweeps
+        constexpr unsigned int max_sweeps = 30;
+        for (unsigned int sweep = 0;
+             sweep < max_sweeps && off_diagonal_square<dim>(A) > negligible;
+             ++sweep)
           {
+            jacobi_rotation<0, 1, dim>(A, result.directions);
             jacobi_rotation<0, 2, dim>(A, result.directions);
             jacobi_rotation<1, 2, dim>(A, result.directions);
           }
       }
 
-    std::copy_n(A.begin(), dim, result.values.begin());
+    for (int a = 0; a < dim; ++a)
+      result.values[a] = A[a];
     return result;
   }
 

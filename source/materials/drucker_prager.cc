@@ -22,10 +22,12 @@ namespace Impoint
 
 
 
-    DruckerPrager::DruckerPrager(const double cohesion,
-                                 const double friction,
-                                 const double dilation)
-      : eta(slope(friction))
+    DruckerPrager::DruckerPrager(const ElasticModuli &moduli,
+                                 const double         cohesion,
+                                 const double         friction,
+                                 const double         dilation)
+      : YieldSurface(moduli)
+      , eta(slope(friction))
       , eta_dilation(slope(dilation))
     {
       Assert(cohesion > 0 || friction > 0,
@@ -52,8 +54,7 @@ namespace Impoint
     // With n the trial deviator over its sqrt(J_2), and a step along the cone's
     // normal of gamma = f / (mu + K eta eta'): tau = tau_trial - gamma (mu n +
     // K eta' 1), unless the deviator would turn round: then the apex.
-    void DruckerPrager::return_map(const ElasticModuli         &moduli,
-                                   const std::array<double, 3> &trial_strain,
+    void DruckerPrager::return_map(const std::array<double, 3> &trial_strain,
                                    const double                 strength,
                                    PrincipalReturn             &result) const
     {

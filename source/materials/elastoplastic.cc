@@ -46,7 +46,8 @@ namespace Impoint
       three_values(const std::array<double, dim> &in_plane, const double zz)
       {
         std::array<double, 3> values = {{0, 0, zz}};
-        std::copy(in_plane.begin(), in_plane.end(), values.begin());
+        for (int a = 0; a < dim; ++a)
+          values[a] = in_plane[a];
         return values;
       }
     } // namespace
@@ -74,7 +75,8 @@ namespace Impoint
                                 const double         *old_history) const
     {
       VoigtVector<dim> old;
-      std::copy_n(old_history, Voigt<dim>::n, old.begin());
+      for (int k = 0; k < Voigt<dim>::n; ++k)
+        old[k] = old_history[k];
       Tensor<2, dim> f = grad_increment;
       for (int i = 0; i < dim; ++i)
         f[i][i] += 1;
@@ -100,7 +102,7 @@ namespace Impoint
           if (!(value > -1))
             throw StepFailed("a principal stretch of a material point is zero "
                              "to round-off");
-          value = 0.5 * std::log1p(value);
+          value = 0.5 * log_one_plus(value);
         }
       return strain;
     }
@@ -115,11 +117,12 @@ namespace Impoint
     {
       std::array<double, dim> b_minus_one;
       for (int a = 0; a < dim; ++a)
-        b_minus_one[a] = std::expm1(2 * elastic[a]);
+        b_minus_one[a] = exp_minus_one(2 * elastic[a]);
       const auto b = from_principal<dim>(b_minus_one, directions);
-      std::copy(b.begin(), b.end(), history);
+      for (int k = 0; k < Voigt<dim>::n; ++k)
+        history[k] = b[k];
       if (dim == 2)
-        history[Voigt<dim>::n] = std::expm1(2 * elastic[2]);
+        history[Voigt<dim>::n] = exp_minus_one(2 * elastic[2]);
 
       const double volume = volume_strain(trial) - volume_strain(elastic);
       double       square = 0;
@@ -151,8 +154,7 @@ namespace Impoint
         strain += opening / 3;
 
       PrincipalReturn result;
-      surface->return_map(moduli,
-                          trial,
+      surface->return_map(trial,
                           softening.strength(old_history[n_elastic]),
                           result);
 
@@ -163,11 +165,15 @@ namespace Impoint
       if (tangent_wanted)
         response.tangent = tangent(b_minus_one, result);
 
-      using Region = PrincipalReturn::Region;
-      std::copy_n(old_history, n_history(), history);
+      using Region       = PrincipalReturn::Region;
+      history[n_elastic] = old_history[n_elastic];
       if (result.region == Region::elastic && opening == 0)
         {
-          std::copy(b.begin(), b.end(), history);
+          for (int k = 0; k < Voigt<dim>::n; ++k)
+            history[k] = b[k];
+          if (dim == 2)
+            history[Voigt<dim>::n] = old_history[Voigt<dim>::n];
+          history[n_elastic + 1] = 0;
           return;
         }
       const auto elastic = elastic_strain(moduli, result.stress);

@@ -22,7 +22,7 @@ namespace Impoint
                               Response<dim> &response) const
     {
       const Tensor<2, dim> H = displacement_gradient(deformation.F);
-      const double pressure  = moduli.lambda * std::log1p(volume_change(H));
+      const double pressure  = moduli.lambda * log_one_plus(volume_change(H));
 
       // b - 1 instead of b: relative accuracy for small strains as well
       const Spectrum<dim>     b_minus_one = spectrum<dim>(left_strain(H));
@@ -32,7 +32,7 @@ namespace Impoint
           if (!(b_minus_one.values[a] > -1))
             throw StepFailed("a principal stretch of a material point is zero "
                              "to round-off");
-          tau[a] = pressure + moduli.mu * std::log1p(b_minus_one.values[a]);
+          tau[a] = pressure + moduli.mu * log_one_plus(b_minus_one.values[a]);
         }
 
       response.stress    = from_principal<dim>(tau, b_minus_one.directions);
@@ -79,11 +79,11 @@ namespace Impoint
                                const Response<dim> & /*response*/) const
     {
       const Tensor<2, dim> H          = displacement_gradient(deformation.F);
-      const double         log_volume = std::log1p(volume_change(H));
+      const double         log_volume = log_one_plus(volume_change(H));
 
       double shear = 0;
       for (const double excess : spectrum<dim>(left_strain(H)).values)
-        shear += std::log1p(excess) * std::log1p(excess) / 4;
+        shear += log_one_plus(excess) * log_one_plus(excess) / 4;
       return 0.5 * moduli.lambda * log_volume * log_volume + moduli.mu * shear;
     }
   } // namespace Materials

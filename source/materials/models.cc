@@ -69,10 +69,13 @@ namespace Impoint
 
       /** Of a surface with cohesion, friction and dilation. */
       template <typename Cone>
-      Surface make_cone(const ParameterFile &file, const std::string &section)
+      Surface make_cone(const ElasticModuli &moduli,
+                        const ParameterFile &file,
+                        const std::string   &section)
       {
         check_angles(file, section);
-        return std::make_unique<Cone>(number(file, section + "/Cohesion"),
+        return std::make_unique<Cone>(moduli,
+                                      number(file, section + "/Cohesion"),
                                       number(file, section + "/Friction angle"),
                                       number(file,
                                              section + "/Dilation angle"));
@@ -80,7 +83,8 @@ namespace Impoint
 
 
 
-      Surface make_von_mises(const ParameterFile &file,
+      Surface make_von_mises(const ElasticModuli &moduli,
+                             const ParameterFile &file,
                              const std::string   &section)
       {
         const std::string path = section + "/Yield stress";
@@ -88,7 +92,7 @@ namespace Impoint
           throw file.error(path,
                            "the yield stress is " + file.value(path),
                            "Set it in Pa, above 0.");
-        return std::make_unique<VonMises>(number(file, path));
+        return std::make_unique<VonMises>(moduli, number(file, path));
       }
 
 
@@ -104,7 +108,8 @@ namespace Impoint
 
 
       template <int dim,
-                Surface (*make_surface)(const ParameterFile &,
+                Surface (*make_surface)(const ElasticModuli &,
+                                        const ParameterFile &,
                                         const std::string &)>
       std::unique_ptr<Material<dim>> make_plastic(const ElasticModuli &moduli,
                                                   const ParameterFile &file,
@@ -112,7 +117,7 @@ namespace Impoint
       {
         return std::make_unique<Elastoplastic<dim>>(
           moduli,
-          make_surface(file, section),
+          make_surface(moduli, file, section),
           softening(file, section),
           file.value(section + "/Close gaps") == "true");
       }
@@ -132,7 +137,8 @@ namespace Impoint
 
 
       /** The row of a yield surface. */
-      template <Surface (*make_surface)(const ParameterFile &,
+      template <Surface (*make_surface)(const ElasticModuli &,
+                                        const ParameterFile &,
                                         const std::string &)>
       Model plastic(const std::string       &name,
                     const std::string       &help,

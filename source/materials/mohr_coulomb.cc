@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <utility>
 
 namespace Impoint
 {
@@ -17,23 +17,6 @@ namespace Impoint
     {
       using Vector = std::array<double, 3>;
       using Region = PrincipalReturn::Region;
-
-      /** Gradient of a plane of the surface or its potential: it grows with
-       * the stress of axis @p major and falls with that of axis @p minor. */
-      struct Plane
-      {
-        int major, minor;
-
-        Vector gradient(const double sine) const
-        {
-          Vector a = {};
-          a[major] = 1 + sine;
-          a[minor] = sine - 1;
-          return a;
-        }
-      };
-
-
 
       double dot(const Vector &a, const Vector &b)
       {
@@ -77,13 +60,18 @@ namespace Impoint
 
 
 
-    MohrCoulomb::MohrCoulomb(const double cohesion,
-                             const double friction,
-                             const double dilation)
-      : cohesion(cohesion)
+    MohrCoulomb::MohrCoulomb(const ElasticModuli &moduli,
+                             const double         cohesion,
+                             const double         friction,
+                             const double         dilation)
+      : YieldSurface(moduli)
+      , cohesion(cohesion)
       , sin_friction(std::sin(friction * numbers::PI / 180))
       , cos_friction(std::cos(friction * numbers::PI / 180))
       , sin_dilation(std::sin(dilation * numbers::PI / 180))
+      , to_plane(way_to<1>({{{0, 2}}}))
+      , to_extension_edge(way_to<2>({{{0, 2}, {1, 2}}}))
+      , to_compression_edge(way_to<2>({{{0, 2}, {0, 1}}}))
     {
       Assert(cohesion > 0 || friction > 0,
              ExcMessage("Neither friction nor cohesion."));
@@ -91,11 +79,74 @@ namespace Impoint
 
 
 
-    double MohrCoulomb::yield_function(Vector       stress,
-                                       const double strength) const
+    // Koiter's rule: tau = tau_trial - D b_j G^-1_ji f_i with G_ij = a_i . D
+    // b_j. All but f_i is the same for all states.
+    template <int n>
+    MohrCoulomb::Way
+    MohrCoulomb::way_to(const std::array<Plane, n> &planes) const
     {
-      std::sort(stress.begin(), stress.end(), std::greater<double>());
-      return (1 + sin_friction) * stress[0] - (1 - sin_friction) * stress[2] -
+      const auto gradient = [](const Plane &plane, const double sine) {
+        Vector a       = {};
+        a[plane.major] = 1 + sine;
+        a[plane.minor] = sine - 1;
+        return a;
+      };
+      Way                   way = {};
+      std::array<Vector, n> a, D_b;
+      for (int i = 0; i < n; ++i)
+        {
+          a[i]   = gradient(planes[i], sin_friction);
+          D_b[i] = elastic_product(moduli, gradient(planes[i], sin_dilation));
+          way.gradients[i] = a[i];
+        }
+      const auto inverse = inverse_moduli<n>(a, D_b);
+
+      way.n = n;
+      for (int k = 0; k < 3; ++k)
+        {
+          way.tangent[k].fill(moduli.lambda);
+          way.tangent[k][k] += 2 * moduli.mu;
+        }
+      for (int i = 0; i < n; ++i)
+        {
+          const Vector D_a = elastic_product(moduli, a[i]);
+          for (int k = 0; k < 3; ++k)
+            {
+              for (int j = 0; j < n; ++j)
+                way.ways[i][k] += D_b[j][k] * inverse[j][i];
+              for (int l = 0; l < 3; ++l)
+                way.tangent[k][l] -= way.ways[i][k] * D_a[l];
+            }
+        }
+      return way;
+    }
+
+
+
+    void MohrCoulomb::go(const Way    &way,
+                         const double  resistance,
+                         const Vector &trial,
+                         Vector       &stress)
+    {
+      stress = trial;
+      for (int i = 0; i < way.n; ++i)
+        {
+          const double excess = dot(way.gradients[i], trial) - resistance;
+          for (int k = 0; k < 3; ++k)
+            stress[k] -= way.ways[i][k] * excess;
+        }
+    }
+
+
+
+    double MohrCoulomb::yield_function(const Vector &stress,
+                                       const double  strength) const
+    {
+      const double largest =
+        std::max(std::max(stress[0], stress[1]), stress[2]);
+      const double smallest =
+        std::min(std::min(stress[0], stress[1]), stress[2]);
+      return (1 + sin_friction) * largest - (1 - sin_friction) * smallest -
              2 * strength * cohesion * cos_friction;
     }
 
@@ -103,45 +154,14 @@ namespace Impoint
 
     namespace
     {
-      /**
-       * Returns the trial stress to where the n planes meet (Koiter's rule):
-       * tau = tau_trial - D b_j G^-1_ji f_i with G_ij = a_i . D b_j.
-       */
-      template <int n>
-      void return_to(const std::array<Plane, n> &planes,
-                     const double                sin_friction,
-                     const double                sin_dilation,
-                     const double                resistance, // 2 c cos phi
-                     const ElasticModuli        &moduli,
-                     const Vector               &trial_stress,
-                     PrincipalReturn            &result)
+      /** Axes in descending order of their values. */
+      std::array<int, 3> descending(const Vector &values)
       {
-        std::array<Vector, n> a, D_a, D_b;
-        std::array<double, n> excess;
-        for (int i = 0; i < n; ++i)
-          {
-            a[i]   = planes[i].gradient(sin_friction);
-            D_a[i] = elastic_product(moduli, a[i]);
-            D_b[i] = elastic_product(moduli, planes[i].gradient(sin_dilation));
-            excess[i] = dot(a[i], trial_stress) - resistance;
-          }
-        const auto inverse = inverse_moduli<n>(a, D_b);
-
-        result.stress = trial_stress;
-        for (int k = 0; k < 3; ++k)
-          {
-            result.tangent[k].fill(moduli.lambda);
-            result.tangent[k][k] += 2 * moduli.mu;
-          }
-        for (int i = 0; i < n; ++i)
-          for (int j = 0; j < n; ++j)
-            for (int k = 0; k < 3; ++k)
-              {
-                const double way = D_b[j][k] * inverse[j][i];
-                result.stress[k] -= way * excess[i];
-                for (int l = 0; l < 3; ++l)
-                  result.tangent[k][l] -= way * D_a[i][l];
-              }
+        std::array<int, 3> order = {{0, 1, 2}};
+        for (const int k : {0, 1, 0})
+          if (values[order[k]] < values[order[k + 1]])
+            std::swap(order[k], order[k + 1]);
+        return order;
       }
 
 
@@ -166,86 +186,79 @@ namespace Impoint
 
 
       /** From descending order back to that of the caller. */
-      void reorder(const std::array<int, 3> &order, PrincipalReturn &result)
+      void reorder(const std::array<int, 3> &order,
+                   const PrincipalReturn    &sorted,
+                   PrincipalReturn          &result)
       {
-        const PrincipalReturn sorted = result;
+        result.region = sorted.region;
         for (int a = 0; a < 3; ++a)
           {
             result.stress[order[a]] = sorted.stress[a];
             for (int b = 0; b < 3; ++b)
-              {
-                result.tangent[order[a]][order[b]] = sorted.tangent[a][b];
-                if (a != b)
-                  result.secant[pair_of(order[a], order[b])] =
-                    sorted.secant[pair_of(a, b)];
-              }
+              result.tangent[order[a]][order[b]] = sorted.tangent[a][b];
+            for (int b = a + 1; b < 3; ++b)
+              result.secant[pair_of(order[a], order[b])] =
+                sorted.secant[pair_of(a, b)];
           }
       }
     } // namespace
 
 
 
-    void MohrCoulomb::return_map(const ElasticModuli &moduli,
-                                 const Vector        &trial_strain,
-                                 const double         strength,
-                                 PrincipalReturn     &result) const
+    void MohrCoulomb::return_map(const Vector    &trial_strain,
+                                 const double     strength,
+                                 PrincipalReturn &result) const
     {
-      elastic_trial(moduli, trial_strain, result);
-      if (yield_function(result.stress, strength) <=
+      const Vector elastic = elastic_product(moduli, trial_strain);
+      if (yield_function(elastic, strength) <=
           yield_tolerance(moduli, trial_strain))
-        return;
+        return elastic_trial(moduli, trial_strain, result);
 
-      std::array<int, 3> order = {{0, 1, 2}};
-      std::sort(order.begin(), order.end(), [&](const int a, const int b) {
-        return trial_strain[a] > trial_strain[b];
-      });
-      Vector strain, trial_stress;
+      const auto order = descending(trial_strain);
+      Vector     strain, trial;
       for (int a = 0; a < 3; ++a)
         {
-          strain[a]       = trial_strain[order[a]];
-          trial_stress[a] = result.stress[order[a]];
+          strain[a] = trial_strain[order[a]];
+          trial[a]  = elastic[order[a]];
         }
 
-      const double resistance = 2 * strength * cohesion * cos_friction;
-      const auto   go_to      = [&](const Region region, const auto &planes) {
-        return_to<std::tuple_size_v<std::decay_t<decltype(planes)>>>(
-          planes,
-          sin_friction,
-          sin_dilation,
-          resistance,
-          moduli,
-          trial_stress,
-          result);
-        result.region = region;
-      };
-      const Plane main = {0, 2};
-      go_to(Region::smooth, std::array<Plane, 1>{{main}});
-      Vector &tau = result.stress;
+      const double    resistance = 2 * strength * cohesion * cos_friction;
+      PrincipalReturn sorted;
+      Vector         &tau = sorted.stress;
+      const Way      *way = &to_plane;
+      sorted.region       = Region::smooth;
+      go(to_plane, resistance, trial, tau);
       // What has passed sigma_1 = sigma_2 returns to that edge, unless it would
       // lie on its extension beyond the apex; likewise sigma_2 = sigma_3.
       const bool beyond_12 = tau[1] > tau[0], beyond_23 = tau[2] > tau[1];
       bool       found = !beyond_12 && !beyond_23;
       if (beyond_12)
         {
-          go_to(Region::extension_edge, std::array<Plane, 2>{{main, {1, 2}}});
+          way           = &to_extension_edge;
+          sorted.region = Region::extension_edge;
+          go(to_extension_edge, resistance, trial, tau);
           tau[1] = tau[0];
           found  = tau[2] <= tau[1];
         }
       if (!found && beyond_23)
         {
-          go_to(Region::compression_edge, std::array<Plane, 2>{{main, {0, 1}}});
+          way           = &to_compression_edge;
+          sorted.region = Region::compression_edge;
+          go(to_compression_edge, resistance, trial, tau);
           tau[2] = tau[1];
           found  = tau[1] <= tau[0];
         }
-      if (!found)
+      if (found)
+        sorted.tangent = way->tangent;
+      else
         {
-          result.region = Region::apex;
+          sorted.region = Region::apex;
           tau.fill(resistance / (2 * sin_friction));
-          for (auto &row : result.tangent)
+          for (auto &row : sorted.tangent)
             row.fill(0);
         }
-      set_secants(2 * moduli.mu, strain, result);
-      reorder(order, result);
+      set_secants(2 * moduli.mu, strain, sorted);
+      reorder(order, sorted, result);
     }
   } // namespace Materials
 } // namespace Impoint

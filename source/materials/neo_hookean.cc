@@ -22,7 +22,7 @@ namespace Impoint
     {
       const Tensor<2, dim>   H      = displacement_gradient(deformation.F);
       const VoigtVector<dim> strain = left_strain(H);
-      const double pressure = moduli.lambda * std::log1p(volume_change(H));
+      const double pressure = moduli.lambda * log_one_plus(volume_change(H));
 
       for (int k = 0; k < Voigt<dim>::n; ++k)
         response.stress[k] = moduli.mu * strain[k] + (k < dim ? pressure : 0);
@@ -41,7 +41,7 @@ namespace Impoint
                                    const Response<dim> & /*response*/) const
     {
       const Tensor<2, dim> H          = displacement_gradient(deformation.F);
-      const double         log_volume = std::log1p(volume_change(H));
+      const double         log_volume = log_one_plus(volume_change(H));
       return 0.5 * moduli.mu *
                (voigt_trace<dim>(left_strain(H)) - 2 * log_volume) +
              0.5 * moduli.lambda * log_volume * log_volume;

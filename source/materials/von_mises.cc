@@ -6,8 +6,7 @@ namespace Impoint
 {
   namespace Materials
   {
-    void VonMises::return_map(const ElasticModuli         &moduli,
-                              const std::array<double, 3> &trial_strain,
+    void VonMises::return_map(const std::array<double, 3> &trial_strain,
                               const double                 strength,
                               PrincipalReturn             &result) const
     {

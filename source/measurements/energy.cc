@@ -1,5 +1,4 @@
 #include <impoint/measurements/energy.h>
-#include <impoint/measurements/totals.h>
 
 namespace Impoint
 {
@@ -24,8 +23,7 @@ namespace Impoint
     template <int dim>
     void Energy<dim>::end_step(const State<dim> &state)
     {
-      const auto sums =
-        totals(state.points, state.active.basis().grid().communicator());
+      const Totals<dim> &sums = state.totals;
       this->set({sums.kinetic_energy,
                  sums.strain_energy,
                  sums.kinetic_energy + sums.strain_energy},

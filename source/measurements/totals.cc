@@ -1,6 +1,8 @@
 #include <impoint/measurements/named_values.h>
 #include <impoint/measurements/totals.h>
 
+#include <cstring>
+
 namespace Impoint
 {
   namespace Measurements
@@ -26,41 +28,6 @@ namespace Impoint
           }
         return energy;
       }
-
-
-
-      /** Strain energy of points as they stand. */
-      template <int dim>
-      class StrainEnergy
-      {
-      public:
-        explicit StrainEnergy(const MaterialPoints<dim> &points)
-          : points(points)
-          , slots(points.slots())
-        {}
-
-        double operator()(const unsigned int p)
-        {
-          const double *state = points.data(p);
-          for (unsigned int i = 0; i < dim * dim; ++i)
-            deformation.F[i / dim][i % dim] = state[slots.F + i];
-          for (int k = 0; k < Voigt<dim>::n; ++k)
-            response.stress[k] = state[slots.stress + k];
-          if constexpr (dim == 2)
-            response.stress_zz = state[slots.stress + Voigt<dim>::n];
-          double density = points.material(p).energy(deformation, response);
-          if (points.carried().initial_stress &&
-              !points.material(p).starts_from_stress())
-            density += initial_stress_energy(points, p);
-          return state[slots.volume] * density;
-        }
-
-      private:
-        const MaterialPoints<dim>                 &points;
-        const typename MaterialPoints<dim>::Slots &slots;
-        Materials::Deformation<dim>                deformation;
-        Materials::Response<dim>                   response;
-      };
 
 
 
@@ -116,35 +83,92 @@ namespace Impoint
 
 
     template <int dim>
-    Totals<dim> totals(const MaterialPoints<dim> &points,
-                       const MPI_Comm             communicator)
+    TotalsSum<dim>::TotalsSum(const MaterialPoints<dim> &points)
+      : points(points)
+    {}
+
+
+
+    template <int dim>
+    void TotalsSum<dim>::add(const typename PointCloud<dim>::Range &range)
     {
-      const auto       &slots   = points.slots();
-      const bool        dynamic = points.carried().dynamic;
-      Totals<dim>       sums;
-      StrainEnergy<dim> strain_energy(points);
-      for (unsigned int p = 0; p < points.n(); ++p)
+      for (unsigned int p = range.begin; p < range.end; ++p)
         {
-          const double         mass = points.data(p)[slots.mass];
-          const Tensor<1, dim> place(points.position(p));
+          const double mass = points.data(p)[points.slots().mass];
           sums.mass += mass;
-          sums.centre += mass * place;
+          for (unsigned int d = 0; d < dim; ++d)
+            sums.centre[d] += mass * points.data(p)[points.slots().x + d];
           sums.strain_energy += strain_energy(p);
-          if (!dynamic)
-            continue;
-          const Tensor<1, dim> velocity = points.vector(p, slots.v);
-          const Tensor<1, dim> momentum = mass * velocity;
-          sums.momentum += momentum;
-          add_moment(place, momentum, sums.spin);
-          sums.kinetic_energy += 0.5 * (momentum * velocity);
         }
-      add_ranks(sums, communicator);
-      sums.centre /= sums.mass;
-      return sums;
+      if (points.carried().dynamic)
+        for (unsigned int p = range.begin; p < range.end; ++p)
+          add_motion(p);
     }
 
 
 
+    template <int dim>
+    void TotalsSum<dim>::add_motion(const unsigned int p)
+    {
+      const double        *state    = points.data(p);
+      const auto          &slots    = points.slots();
+      const Tensor<1, dim> velocity = points.vector(p, slots.v);
+      const Tensor<1, dim> momentum = state[slots.mass] * velocity;
+      sums.momentum += momentum;
+      add_moment(points.vector(p, slots.x), momentum, sums.spin);
+      sums.kinetic_energy += 0.5 * (momentum * velocity);
+    }
+
+
+
+    /** Of the point as it stands. */
+    template <int dim>
+    double TotalsSum<dim>::strain_energy(const unsigned int p)
+    {
+      const double *state = points.data(p);
+      const auto   &slots = points.slots();
+      // at once: the material waits for numbers that are stored one by one
+      std::memcpy(deformation.F.begin_raw(),
+                  state + slots.F,
+                  dim * dim * sizeof(double));
+      for (int k = 0; k < Voigt<dim>::n; ++k)
+        response.stress[k] = state[slots.stress + k];
+      if constexpr (dim == 2)
+        response.stress_zz = state[slots.stress + Voigt<dim>::n];
+      double density = points.material(p).energy(deformation, response);
+      if (points.carried().initial_stress &&
+          !points.material(p).starts_from_stress())
+        density += initial_stress_energy(points, p);
+      return state[slots.volume] * density;
+    }
+
+
+
+    template <int dim>
+    Totals<dim> TotalsSum<dim>::of_all_ranks(const MPI_Comm communicator) const
+    {
+      Totals<dim> totals = sums;
+      add_ranks(totals, communicator);
+      totals.centre /= totals.mass;
+      return totals;
+    }
+
+
+
+    template <int dim>
+    Totals<dim> totals(const MaterialPoints<dim> &points,
+                       const MPI_Comm             communicator)
+    {
+      TotalsSum<dim> sum(points);
+      for (const auto &range : points.ranges())
+        sum.add(range);
+      return sum.of_all_ranks(communicator);
+    }
+
+
+
+    template class TotalsSum<2>;
+    template class TotalsSum<3>;
     template Tensor<1, 3> moment(const Tensor<1, 2> &, const Tensor<1, 2> &);
     template Tensor<1, 3> moment(const Tensor<1, 3> &, const Tensor<1, 3> &);
     template Totals<2>    totals(const MaterialPoints<2> &, const MPI_Comm);

@@ -1,6 +1,7 @@
 #include <impoint/particles/material_points.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace Impoint
 {
@@ -162,7 +163,7 @@ namespace Impoint
     constexpr unsigned int n_fixed = EndStates<dim>::n_fixed;
     double                *state   = this->data(p);
     AssertDimension(slot.stress, slot.F + dim * dim);
-    std::copy_n(end_state, n_fixed, state + slot.F);
+    std::memcpy(state + slot.F, end_state, n_fixed * sizeof(double));
     for (unsigned int i = 0; i < carried_state.n_history; ++i)
       state[slot.history + i] = end_state[n_fixed + i];
   }

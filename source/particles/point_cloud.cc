@@ -66,7 +66,9 @@ namespace Impoint
     exchange({}, arrivals);
     list(arrivals);
     handler->update_cached_numbers();
-    evaluate_supports();
+    for (const Range &range : cell_ranges)
+      evaluate_supports(range);
+    ++evaluations;
   }
 
 
@@ -240,15 +242,23 @@ namespace Impoint
 
 
   template <int dim>
-  void PointCloud<dim>::evaluate_supports()
+  void PointCloud<dim>::evaluate_supports(const Range &range)
   {
-    ++evaluations;
-    for (const Range &range : cell_ranges)
-      basis.evaluate(range.cell,
-                     ArrayView<const Point<dim>>(references.data() +
-                                                   range.begin,
-                                                 range.end - range.begin),
-                     supports.data() + first_support[range.begin]);
+    basis.evaluate(range.cell,
+                   ArrayView<const Point<dim>>(references.data() + range.begin,
+                                               range.end - range.begin),
+                   supports.data() + first_support[range.begin]);
+  }
+
+
+
+  template <int dim>
+  void PointCloud<dim>::renew_supports(const Range &range)
+  {
+    if (anchor != 0 || !moves.empty())
+      return;
+    evaluate_supports(range);
+    n_renewed += range.end - range.begin;
   }
 
 
@@ -271,7 +281,11 @@ namespace Impoint
             "points were lost between cells: " + std::to_string(n_before) +
             " before, " + std::to_string(n_global()) + " after");
       }
-    evaluate_supports();
+    if (changed || n_renewed < n())
+      for (const Range &range : cell_ranges)
+        evaluate_supports(range);
+    ++evaluations;
+    n_renewed = 0;
     return changed;
   }
 

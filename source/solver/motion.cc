@@ -218,11 +218,13 @@ namespace Impoint
 
 
   template <int dim>
-  void update_points(const ActiveNodes<dim> &active,
-                     const NodalVector      &u,
-                     const Inertia<dim>     *inertia,
-                     const EndStates<dim>   &end_states,
-                     MaterialPoints<dim>    &points)
+  void update_points(
+    const ActiveNodes<dim> &active,
+    const NodalVector      &u,
+    const Inertia<dim>     *inertia,
+    const EndStates<dim>   &end_states,
+    MaterialPoints<dim>    &points,
+    const std::function<void(const typename PointCloud<dim>::Range &)> &updated)
   {
     CellUpdate<dim>     update(points, inertia, end_states);
     std::vector<double> accelerations, motion, cell_seen;
@@ -256,6 +258,8 @@ namespace Impoint
           gather_at<dim, 2 * dim>(nodes, accelerations.data(), motion, dim);
           run(std::integral_constant<int, 2 * dim>());
         });
+        if (updated)
+          updated(points.ranges()[k]);
       }
   }
 
@@ -267,11 +271,13 @@ namespace Impoint
   template void set_accelerations(const ActiveNodes<dim> &, \
                                   const NodalVector &,      \
                                   MaterialPoints<dim> &);   \
-  template void update_points(const ActiveNodes<dim> &,     \
-                              const NodalVector &,          \
-                              const Inertia<dim> *,         \
-                              const EndStates<dim> &,       \
-                              MaterialPoints<dim> &);
+  template void update_points(                              \
+    const ActiveNodes<dim> &,                               \
+    const NodalVector &,                                    \
+    const Inertia<dim> *,                                   \
+    const EndStates<dim> &,                                 \
+    MaterialPoints<dim> &,                                  \
+    const std::function<void(const PointCloud<dim>::Range &)> &);
 
   IMPOINT_INSTANTIATE(2)
   IMPOINT_INSTANTIATE(3)

@@ -210,6 +210,25 @@ namespace Impoint
 
 
 
+  /** The place at the end of the step of a point with the n shape values of
+   * its support. */
+  template <int dim>
+  DEAL_II_ALWAYS_INLINE inline void
+  InternalForce<dim>::store_place(const unsigned int p,
+                                  const int          n,
+                                  const double      *u) const
+  {
+    const double *N = points.support(p), *x = points.data(p);
+    double        displacement[dim] = {};
+    for (int a = 0; a < n; ++a)
+      for (int d = 0; d < dim; ++d)
+        displacement[d] += N[a] * u[a * dim + d];
+    for (int d = 0; d < dim; ++d)
+      end_states->places[p][d] = x[d] + displacement[d];
+  }
+
+
+
   template <int dim>
   template <int n_static, bool symmetric>
   void InternalForce<dim>::add_cell(const unsigned int k,
@@ -225,12 +244,15 @@ namespace Impoint
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
     const auto                 &range = points.ranges()[k];
+    const bool keeps_ends = end_states != nullptr && end_states->are_kept();
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
         const double        *gradients = points.support(p) + n;
         const Tensor<2, dim> grad_u =
           displacement_gradient<dim>(n, system.u, gradients);
         respond(p, grad_u, system.matrix != nullptr, deformation, response);
+        if (keeps_ends)
+          store_place(p, n, system.u);
         const bool finite = !points.material(p).small_strain();
         if (finite)
           push_forward<dim>(n,
@@ -268,6 +290,7 @@ namespace Impoint
     Materials::Deformation<dim> deformation;
     Materials::Response<dim>    response;
     const auto                 &range = points.ranges()[k];
+    const bool keeps_ends = end_states != nullptr && end_states->are_kept();
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
         const double *gradients = points.support(p) + n;
@@ -277,6 +300,8 @@ namespace Impoint
                 p == range.begin,
                 deformation,
                 response);
+        if (keeps_ends)
+          store_place(p, n, system.u);
         by_component<dim>(n, gradients, g);
         add_force<dim>(n, volume, response.stress, g, system.residual);
         for (int d = 0; d < dim; ++d)

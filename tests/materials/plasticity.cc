@@ -63,11 +63,11 @@ void check(const std::string &name,
            const Numbers... numbers)
 {
   const Plastic<2> flat(moduli,
-                        std::make_unique<Surface>(numbers...),
+                        std::make_unique<Surface>(moduli, numbers...),
                         softening,
                         true);
   const Plastic<3> solid(moduli,
-                         std::make_unique<Surface>(numbers...),
+                         std::make_unique<Surface>(moduli, numbers...),
                          softening,
                          true);
   check_states<2>(name + " 2D", flat);
@@ -99,7 +99,7 @@ void check(const std::string &name,
 void torn_sand(const bool closes_gaps)
 {
   const Plastic<2>    sand(moduli,
-                        std::make_unique<MohrCoulomb>(0, 20, 0),
+                        std::make_unique<MohrCoulomb>(moduli, 0, 20, 0),
                         Softening(),
                         closes_gaps);
   State<2>            state{std::vector<double>(sand.n_history(), 0.),

@@ -1,5 +1,6 @@
 // Elastic models at random states: derivative of stress against the tangent,
-// derivative of energy against stress, objectivity, plane strain against 3D.
+// derivative of energy against stress, objectivity, plane strain against 3D;
+// the models' logarithms.
 
 #include <impoint/materials/hencky.h>
 #include <impoint/materials/linear_elastic.h>
@@ -112,8 +113,23 @@ void check(const std::string &name)
   report(name + " plane strain", error / moduli.young, 1e-12);
 }
 
+// on both sides of where they become the library's
+void logarithms()
+{
+  double error = 0;
+  for (int n = -2000; n <= 2000; ++n)
+    for (const double x : {1e-5 * n, 1e-12 * n})
+      if (x != 0)
+        {
+          raise(error, std::abs(log_one_plus(x) / std::log1p(x) - 1));
+          raise(error, std::abs(exp_minus_one(x) / std::expm1(x) - 1));
+        }
+  report("ln(1 + x), exp(x) - 1 against the library's", error, 4e-16);
+}
+
 int main()
 {
+  logarithms();
   check<LinearElastic>("linear elastic");
   check<StVenantKirchhoff>("St. Venant-Kirchhoff");
   check<NeoHookean>("neo-Hookean");

@@ -67,7 +67,7 @@ Values derivative(const Surface  &surface,
       Values moved = strain;
       for (int a = 0; a < 3; ++a)
         moved[a] += from[k] * h * direction[a];
-      surface.return_map(moduli, moved, strength, there);
+      surface.return_map(moved, strength, there);
       for (int a = 0; a < 3; ++a)
         rate[a] += there.region == region ?
                      with[k] * there.stress[a] / (12 * h) :
@@ -86,7 +86,7 @@ void check(const std::string &name, const Surface &surface)
     {
       const Values    strain = random_strain(n);
       PrincipalReturn result;
-      surface.return_map(moduli, strain, strength, result);
+      surface.return_map(strain, strength, result);
       ++counts[result.region];
       const double f = excess(surface, result.stress) / moduli.young;
       raise(off, result.region == Region::elastic ? f : std::abs(f));
@@ -129,11 +129,11 @@ void check(const std::string &name, const Surface &surface)
 
 int main()
 {
-  check("Mohr-Coulomb, sand", MohrCoulomb(0, 19.8, 0));
-  check("Mohr-Coulomb, soil", MohrCoulomb(5, 30, 10));
-  check("Mohr-Coulomb, associated", MohrCoulomb(5, 30, 30));
-  check("Tresca", MohrCoulomb(5, 0, 0));
-  check("Drucker-Prager, sand", DruckerPrager(0, 30, 0));
-  check("Drucker-Prager, soil", DruckerPrager(5, 30, 10));
-  check("von Mises", VonMises(9));
+  check("Mohr-Coulomb, sand", MohrCoulomb(moduli, 0, 19.8, 0));
+  check("Mohr-Coulomb, soil", MohrCoulomb(moduli, 5, 30, 10));
+  check("Mohr-Coulomb, associated", MohrCoulomb(moduli, 5, 30, 30));
+  check("Tresca", MohrCoulomb(moduli, 5, 0, 0));
+  check("Drucker-Prager, sand", DruckerPrager(moduli, 0, 30, 0));
+  check("Drucker-Prager, soil", DruckerPrager(moduli, 5, 30, 10));
+  check("von Mises", VonMises(moduli, 9));
 }

@@ -123,7 +123,14 @@ public:
 private:
   Measurements::State<dim> state() const
   {
-    return {*points, methods, active, time, 1., forces, residuals};
+    return {*points,
+            methods,
+            active,
+            time,
+            1.,
+            forces,
+            residuals,
+            Measurements::totals(*points)};
   }
 
   void move(const Tensor<2, dim> &A)

@@ -18,17 +18,17 @@ namespace Impoint
     public:
       /** Angles in degrees, 0 <= @p dilation <= @p friction < 90;
        * @p cohesion >= 0 [Pa], above 0 if there is no friction. */
-      DruckerPrager(const double cohesion,
-                    const double friction,
-                    const double dilation);
+      DruckerPrager(const ElasticModuli &moduli,
+                    const double         cohesion,
+                    const double         friction,
+                    const double         dilation);
 
       bool associated() const override
       {
         return eta == eta_dilation;
       }
 
-      void return_map(const ElasticModuli         &moduli,
-                      const std::array<double, 3> &trial_strain,
+      void return_map(const std::array<double, 3> &trial_strain,
                       const double                 strength,
                       PrincipalReturn             &result) const override;
 

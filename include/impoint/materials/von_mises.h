@@ -13,8 +13,9 @@ namespace Impoint
     {
     public:
       /** @p yield_stress > 0 [Pa] in uniaxial stress. */
-      explicit VonMises(const double yield_stress)
-        : yield_stress(yield_stress)
+      VonMises(const ElasticModuli &moduli, const double yield_stress)
+        : YieldSurface(moduli)
+        , yield_stress(yield_stress)
       {}
 
       bool associated() const override
@@ -22,8 +23,7 @@ namespace Impoint
         return true;
       }
 
-      void return_map(const ElasticModuli         &moduli,
-                      const std::array<double, 3> &trial_strain,
+      void return_map(const std::array<double, 3> &trial_strain,
                       const double                 strength,
                       PrincipalReturn             &result) const override;
 

@@ -48,6 +48,10 @@ namespace Impoint
     class YieldSurface
     {
     public:
+      explicit YieldSurface(const ElasticModuli &moduli)
+        : moduli(moduli)
+      {}
+
       virtual ~YieldSurface() = default;
 
       /** Whether plastic strains are normal to the surface. */
@@ -57,10 +61,12 @@ namespace Impoint
        * Stress and tangents for elastic trial strains (in any order).
        * @p strength is the part of cohesion or yield stress that is left.
        */
-      virtual void return_map(const ElasticModuli         &moduli,
-                              const std::array<double, 3> &trial_strain,
+      virtual void return_map(const std::array<double, 3> &trial_strain,
                               const double                 strength,
                               PrincipalReturn             &result) const = 0;
+
+    protected:
+      const ElasticModuli moduli;
     };
 
     /** The elastic answer. Surfaces alter it where it is beyond them. */

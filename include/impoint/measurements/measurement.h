@@ -5,6 +5,7 @@
 #include <impoint/base/state_archive.h>
 #include <impoint/enforcement/enforcement.h>
 #include <impoint/measurements/measurement_parameters.h>
+#include <impoint/measurements/totals.h>
 #include <impoint/output/run_record.h>
 #include <impoint/particles/material_points.h>
 
@@ -43,6 +44,7 @@ namespace Impoint
       std::vector<BoundaryForce<dim>> forces; // of every boundary, as listed in
                                               // the scene; sums of all ranks
       std::vector<double> residuals; // relative, of the step's iteration
+      Totals<dim>         totals;    // of the material points
 
       /** Of the matrix that was solved with last; in follow(). Collective. */
       std::function<ConditionNumbers()> condition_numbers = []() {

@@ -20,8 +20,31 @@ namespace Impoint
       double strain_energy  = 0; // [J]; NaN where a material has none
     };
 
-    /** The sums; what needs velocities is zero if the points carry none.
-     * Collective. */
+    /** Adds them up, the points of one cell after the other: best while their
+     * state is in the cache. What needs velocities is zero if the points carry
+     * none. */
+    template <int dim>
+    class TotalsSum
+    {
+    public:
+      explicit TotalsSum(const MaterialPoints<dim> &points);
+
+      void add(const typename PointCloud<dim>::Range &range);
+
+      /** Collective. */
+      Totals<dim> of_all_ranks(const MPI_Comm communicator) const;
+
+    private:
+      void   add_motion(const unsigned int p);
+      double strain_energy(const unsigned int p);
+
+      const MaterialPoints<dim>  &points;
+      Totals<dim>                 sums; // centre: times the mass
+      Materials::Deformation<dim> deformation;
+      Materials::Response<dim>    response;
+    };
+
+    /** The same of all points. Collective. */
     template <int dim>
     Totals<dim> totals(const MaterialPoints<dim> &points,
                        const MPI_Comm communicator = MPI_COMM_WORLD);

@@ -173,8 +173,8 @@ namespace Impoint
 
   /**
    * What the last evaluation of the residual found of each material point at
-   * the end of the step: F, stress and history. If that was the solution's, the
-   * points take it over, and no material is asked once more.
+   * the end of the step: its place, F, stress and history. If that was the
+   * solution's, the points take it over, and no material is asked once more.
    */
   template <int dim>
   class EndStates
@@ -198,9 +198,11 @@ namespace Impoint
         *end_state = response.stress_zz;
     }
 
-    /** Makes room for the points, or for none if they are not @p kept. */
+    /** Makes room for the points; for nothing but their places if the rest is
+     * not @p kept. */
     void reinit(const MaterialPoints<dim> &points, const bool kept)
     {
+      places.resize(points.n());
       size = n_fixed + points.carried().n_history;
       values.resize(kept ? std::size_t(points.n()) * size : 0);
     }
@@ -214,6 +216,13 @@ namespace Impoint
     {
       return values.empty() ? nullptr : values.data() + std::size_t(p) * size;
     }
+
+    bool are_kept() const
+    {
+      return !values.empty();
+    }
+
+    std::vector<Point<dim>> places;
 
   private:
     unsigned int        size = 0;

@@ -123,6 +123,10 @@ namespace Impoint
     bool find(const std::vector<Point<dim>> &new_places,
               const std::string             &kind);
 
+    /** Renews the supports of a cell's particles ahead of move(), while they
+     * are in the cache; unless some particle leaves its cell. */
+    void renew_supports(const Range &range);
+
     /**
      * After the particles' places were set to what find() was asked for: puts
      * those that left their cell into the new one (on other ranks, too) and
@@ -186,12 +190,13 @@ namespace Impoint
                   const typename Pool::Handle handle,
                   const Point<dim>           &reference);
     void   place_supports();
-    void   evaluate_supports();
+    void   evaluate_supports(const Range &range);
 
     const Basis<dim>                  &basis;
     PropertyLayout                     property_layout;
     unsigned int                       anchor;
     std::size_t                        evaluations = 0;
+    unsigned int                       n_renewed   = 0; // ahead of move()
     std::unique_ptr<Handler>           handler;
     Pool                              *pool; // the handler's
     std::vector<Range>                 cell_ranges;

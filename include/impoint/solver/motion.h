@@ -7,6 +7,7 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <functional>
 #include <vector>
 
 namespace Impoint
@@ -31,13 +32,17 @@ namespace Impoint
 
   /** Places, displacements, deformation gradients, stresses and histories of
    * the points after the step, and their velocities unless @p inertia is
-   * null. @p end_states, if they are kept, are those at @p u. */
+   * null. @p end_states, if they are kept, are those at @p u. @p updated, if
+   * any, is called for each cell's points when they are done. */
   template <int dim>
-  void update_points(const ActiveNodes<dim>                           &active,
-                     const LinearAlgebra::distributed::Vector<double> &u,
-                     const Inertia<dim>                               *inertia,
-                     const EndStates<dim> &end_states,
-                     MaterialPoints<dim>  &points);
+  void update_points(
+    const ActiveNodes<dim>                           &active,
+    const LinearAlgebra::distributed::Vector<double> &u,
+    const Inertia<dim>                               *inertia,
+    const EndStates<dim>                             &end_states,
+    MaterialPoints<dim>                              &points,
+    const std::function<void(const typename PointCloud<dim>::Range &)>
+      &updated = {});
 } // namespace Impoint
 
 #endif

@@ -30,6 +30,8 @@ namespace Impoint
 
     bool one_constant_tangent(const unsigned int k) const;
 
+    void store_place(const unsigned int p, const int n, const double *u) const;
+
     void respond(const unsigned int           p,
                  const Tensor<2, dim>        &grad_u,
                  const bool                   tangent_wanted,
