@@ -96,6 +96,8 @@ namespace Impoint
           }
         catch (const StepFailed &failure)
           {
+            if (!is_whole) // amid an update: there is nothing to repeat
+              throw RunFailed(failure.what());
             u.reinit(0);
             halve(now, failure);
             bool stop = signals.arrived();

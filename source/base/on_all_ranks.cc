@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
+#include <exception>
 #include <string>
 #include <thread>
 
@@ -56,6 +57,12 @@ namespace Impoint
     catch (const StepFailed &error)
       {
         failure = step_failed;
+        message = error.what();
+      }
+    catch (const std::exception &error)
+      {
+        // of a library, or no memory: the others must not wait for this rank
+        failure = run_failed;
         message = error.what();
       }
 

@@ -121,6 +121,8 @@ namespace Impoint
     // reactions of held nodes are what the residual leaves there
     history.push_back(system.has_held_nodes() ? system.evaluate(u, false) :
                                                 system.linear_residual(delta));
+    if (!std::isfinite(history.back()))
+      throw StepFailed("The linear system has no solution in finite numbers");
   }
 
 

@@ -90,9 +90,17 @@ namespace Impoint
     Vector       inverse(roots);
     for (double &value : inverse)
       value = 1. / value;
-    numbers.whole  = largest(multiply, nullptr) * largest(divide, nullptr);
-    numbers.scaled = largest(multiply, &inverse) * largest(divide, &roots);
-    counters       = counters_before;
+    try
+      {
+        numbers.whole  = largest(multiply, nullptr) * largest(divide, nullptr);
+        numbers.scaled = largest(multiply, &inverse) * largest(divide, &roots);
+      }
+    catch (const StepFailed &)
+      {
+        // what cannot be solved with has none; the step itself was solved
+        numbers = {};
+      }
+    counters = counters_before;
     return numbers;
   }
 

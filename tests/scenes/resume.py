@@ -111,8 +111,6 @@ def kill_and_resume(title, scene, ranks, n_kills, others, longest=0.7):
     whole, killed = Path(f"{title}-{ranks}"), Path(f"{title}-{ranks}-killed")
     for left_over in (whole, killed):  # by an earlier call, of another version
         shutil.rmtree(left_over, ignore_errors=True)
-    for left_over in (whole, killed):  # by an earlier call, of another version
-        shutil.rmtree(left_over, ignore_errors=True)
     start = time.monotonic()
     finish([*scene, "--output", whole, "--overwrite"], ranks)
     duration = time.monotonic() - start
