@@ -29,6 +29,23 @@ namespace Impoint
   }
 
   template <int dim>
+  void BlockMatrix<dim>::absolute_vmult(const double *x, double *y) const
+  {
+    const double *entry = values.data();
+    for (unsigned int row = 0; row < pattern->n_rows(); ++row)
+      {
+        double *sums = y + static_cast<std::size_t>(row) * dim;
+        std::fill(sums, sums + dim, 0.);
+        for (std::size_t k = pattern->row_start[row];
+             k < pattern->row_start[row + 1];
+             ++k)
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              sums[i] += std::abs(*entry++ * x[pattern->columns[k] * dim + j]);
+      }
+  }
+
+  template <int dim>
   double BlockMatrix<dim>::largest_entry() const
   {
     double largest = 0;

@@ -120,10 +120,14 @@ namespace Impoint
   MethodOfMultipliers<dim>::find(const Vector &u,
                                  const double  load,
                                  const double  reference,
+                                 const double  round_off,
                                  const bool    exact,
                                  Vector       &delta)
   {
     constexpr double tolerance = 1e-13, coarse = 1e-4;
+    // What is left and hardly falls, and is as small as round-off of the
+    // forces, is that.
+    constexpr double small = 4., falls = 0.5;
     // energy of what is left, where a further correction follows
     constexpr double       coarse_solution = 1e4;
     constexpr unsigned int max_solutions = 100, most_idle = 6;
@@ -169,8 +173,9 @@ namespace Impoint
         rest              = forces.l2_norm();
         largest           = std::max(largest, total.l2_norm());
         n_idle            = rest > 0.999 * last ? n_idle + 1 : 0;
-        if (n_idle == most_idle)
-          break; // round-off
+        if (n_idle == most_idle ||
+            (rest > falls * last && rest <= small * round_off))
+          break;
       }
     set(present);
     if (std::any_of(methods.begin(), methods.end(), [](const auto &method) {

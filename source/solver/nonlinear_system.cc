@@ -293,8 +293,12 @@ namespace Impoint
 
     multiplier_forces.reinit(active.unknowns());
     if (is_augmented())
-      multiplier_forces = multipliers.find(
-        u, external.l2_norm(), right.l2_norm(), is_linear(), delta);
+      multiplier_forces = multipliers.find(u,
+                                           external.l2_norm(),
+                                           right.l2_norm(),
+                                           round_off_of_forces(u, delta),
+                                           is_linear(),
+                                           delta);
   }
 
 

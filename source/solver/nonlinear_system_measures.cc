@@ -104,6 +104,21 @@ namespace Impoint
 
 
 
+  /** [N], of the forces at the displacements @p u + @p delta. */
+  template <int dim>
+  double NonlinearSystem<dim>::round_off_of_forces(const Vector &u,
+                                                   const Vector &delta) const
+  {
+    Vector place(u), forces(active.unknowns());
+    place += delta;
+    place.update_ghost_values();
+    problem.matrix.absolute_vmult(place.begin(), forces.begin());
+    forces.compress(VectorOperation::add);
+    return machine_precision * forces.l2_norm();
+  }
+
+
+
   template <int dim>
   double NonlinearSystem<dim>::linear_residual(const Vector &delta) const
   {

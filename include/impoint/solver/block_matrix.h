@@ -18,6 +18,10 @@ namespace Impoint
     void reinit(const BlockPattern &pattern);     // zero
     void vmult(const double *x, double *y) const; // y = A x
 
+    /** y = |A| |x|, by absolute values of all entries: what round-off in A x is
+     * a part of. */
+    void absolute_vmult(const double *x, double *y) const;
+
     double largest_entry() const; // in absolute value
 
     const BlockPattern *pattern = nullptr;

@@ -39,15 +39,16 @@ namespace Impoint
     /**
      * Improves @p delta, the correction at @p u with the present multipliers,
      * and these, until a further update changes the residual by round-off of
-     * the forces in this step: @p load [N] and those of the multipliers. @p
-     * reference [N] is the right-hand side of delta; where a further correction
-     * follows, changes that are small beside that are left to it (@p exact =
-     * false). Returns what the new multipliers changed in the residual.
-     * Collective.
+     * the forces in this step: @p load [N] and those of the multipliers, or @p
+     * round_off [N] of the sums that make up the residual. @p reference [N] is
+     * the right-hand side of delta; where a further correction follows, changes
+     * that are small beside that are left to it (@p exact = false). Returns
+     * what the new multipliers changed in the residual. Collective.
      */
     Vector find(const Vector &u,
                 const double  load,
                 const double  reference,
+                const double  round_off,
                 const bool    exact,
                 Vector       &delta);
 

@@ -90,6 +90,9 @@ namespace Impoint
      */
     double round_off(const Vector &u) const;
 
+    /** [N], of the residual at the displacements u + delta. Collective. */
+    double round_off_of_forces(const Vector &u, const Vector &delta) const;
+
     /** What a place, at the size of a cell, cannot tell from none [m]. */
     double smallest_displacement() const;
 
