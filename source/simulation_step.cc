@@ -3,6 +3,7 @@
 #include <impoint/base/scoped_seconds.h>
 #include <impoint/boundary_forces.h>
 #include <impoint/enforcement/acting_cells.h>
+#include <impoint/enforcement/held_areas.h>
 #include <impoint/enforcement/proximity.h>
 #include <impoint/simulation.h>
 #include <impoint/solver/motion.h>
@@ -23,7 +24,10 @@ namespace Impoint
       changed = active.reinit(
         points->cells(),
         Enforcement::cells(methods, start, end, scene.grid.is_kept()),
-        [&]() { return system->find_links(start, end); },
+        [&]() {
+          Enforcement::find_held_areas(methods, start, end, active, *points);
+          return system->find_links(start, end);
+        },
         [&](const auto &candidates) {
           return Enforcement::acting_cells(
             methods, start, end, candidates, grid, *points, reached);

@@ -58,7 +58,7 @@ namespace Impoint
       Tensor<1, dim> centre, normal;
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
-          const double area = boundary.area(b);
+          const double area = boundary.held_area(b);
           cell.area += area;
           centre += area * Tensor<1, dim>(boundary.position(b));
           normal += area * boundary.vector(b, boundary.slots().normal);
@@ -87,7 +87,8 @@ namespace Impoint
       std::vector<Cell> own;
       for (unsigned int r = 0; r < ranges.size(); ++r)
         if (active.position(ranges[r].cell) != BackgroundGrid<dim>::nowhere &&
-            (!wanted || wanted(r)) && nodes_are_vertices(basis, ranges[r].cell))
+            boundary.held_area_of_range(r) > 0 && (!wanted || wanted(r)) &&
+            nodes_are_vertices(basis, ranges[r].cell))
           own.push_back(describe(boundary, r, basis));
       for (const auto &part :
            Utilities::MPI::all_gather(basis.grid().communicator(), own))

@@ -53,7 +53,8 @@ namespace Impoint
     template <int dim>
     bool GapMethod<dim>::takes_part(const unsigned int r) const
     {
-      return left_out.empty() || !left_out[r];
+      return (left_out.empty() || !left_out[r]) &&
+             this->boundary->held_area_of_range(r) > 0;
     }
 
 
@@ -189,7 +190,8 @@ namespace Impoint
         function(make_patch(r, range.begin, range.end));
       else
         for (unsigned int b = range.begin; b < range.end; ++b)
-          function(make_patch(r, b, b + 1));
+          if (this->boundary->held_area(b) > 0)
+            function(make_patch(r, b, b + 1));
     }
 
 
@@ -361,7 +363,7 @@ namespace Impoint
             }
           // what the wall does to the material is minus what the residual holds
           const Tensor<1, dim> force =
-            this->boundary->area(b) * alone.total(answer.traction);
+            this->boundary->held_area(b) * alone.total(answer.traction);
           this->boundary->set_vector(b, slots.gap, gap);
           if (!is_in(patch, b))
             continue;

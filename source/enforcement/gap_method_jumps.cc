@@ -20,13 +20,11 @@ namespace Impoint
       std::vector<Tensor<1, dim>> means(ranges.size());
       for (unsigned int r = 0; r < ranges.size(); ++r)
         {
-          double area = 0;
+          const double area = this->boundary->held_area_of_range(r);
+          if (area == 0)
+            continue;
           for (unsigned int b = ranges[r].begin; b < ranges[r].end; ++b)
-            {
-              area += this->boundary->area(b);
-              means[r] += this->boundary->area(b) * multiplier[b];
-            }
-          means[r] /= area;
+            means[r] += this->boundary->held_area(b) / area * multiplier[b];
         }
       jumps.exchange(means);
     }

@@ -62,7 +62,7 @@ namespace Impoint
     template <int dim>
     bool GapMethod<dim>::is_in(const Patch &patch, const unsigned int b) const
     {
-      return away(b) <= patch.reach;
+      return this->boundary->held_area(b) > 0 && away(b) <= patch.reach;
     }
 
 
@@ -131,17 +131,18 @@ namespace Impoint
       constexpr double same    = 0.05; // [h]
       double           nearest = std::numeric_limits<double>::max();
       for (unsigned int b = begin; b < end; ++b)
-        nearest = std::min(nearest, away(b));
+        if (this->boundary->held_area(b) > 0)
+          nearest = std::min(nearest, away(b));
       patch.reach = nearest;
       if (nearest > 0)
         patch.reach +=
           same * this->current.active->basis().grid().smallest_size();
       for (unsigned int b = begin; b < end; ++b)
         if (is_in(patch, b))
-          patch.area += this->boundary->area(b);
+          patch.area += this->boundary->held_area(b);
       for (unsigned int b = begin; b < end; ++b)
         if (is_in(patch, b))
-          add_particle(r, b, this->boundary->area(b) / patch.area, patch);
+          add_particle(r, b, this->boundary->held_area(b) / patch.area, patch);
       if (normal_only)
         {
           patch.normal    = Tensor<1, dim>();

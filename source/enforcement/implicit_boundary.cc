@@ -56,12 +56,10 @@ namespace Impoint
               state.stress[i][j] += part * stress[Voigt<dim>::position(i, j)];
         }
       state.stress /= volume;
-      double area = 0;
-      for (unsigned int b = this->boundary->ranges()[r].begin;
-           b < this->boundary->ranges()[r].end;
-           ++b)
-        area += this->boundary->area(b);
-      state.filled  = std::min(1., volume / (band_width(r) * area));
+      // of a band without material before it nothing is asked
+      const double area = this->boundary->held_area_of_range(r);
+      if (area > 0)
+        state.filled = std::min(1., volume / (band_width(r) * area));
       state.tangent = points.material(range.begin).elastic_tangent();
       return state;
     }
@@ -188,7 +186,7 @@ namespace Impoint
       const auto nodes = this->current.active->nodes(
         this->current.active->position(this->boundary->ranges()[r].cell));
       Patch patch(nodes.size());
-      patch.area      = this->boundary->area(b);
+      patch.area      = this->boundary->held_area(b);
       patch.start_gap = this->boundary->vector(b, slots.gap) -
                         held * this->boundary->vector(b, slots.increment);
       patch.start_traction =
@@ -254,7 +252,7 @@ namespace Impoint
                                     const Strength     strength,
                                     CellSystem        &system) const
     {
-      if (shared.contains(r))
+      if (shared.contains(r) || this->boundary->held_area_of_range(r) == 0)
         return;
       if (!holds_each_particle(r))
         return add_patch(mean(r), strength, system);
@@ -307,7 +305,8 @@ namespace Impoint
           traction = shared_tractions[r];
           gap      = shared_gaps[r];
         }
-      else if (u != nullptr && !holds_each_particle(r))
+      else if (u != nullptr && !holds_each_particle(r) &&
+               this->boundary->held_area_of_range(r) > 0)
         {
           const Patch patch = mean(r);
           traction          = patch.traction(u);

@@ -67,16 +67,16 @@ namespace Impoint
       for_active_ranges(*this,
                         *step.active,
                         [&](const unsigned int r, const unsigned int k) {
-                          const auto &range = this->boundary->ranges()[r];
-                          double      area = 0, volume = 0;
-                          for (unsigned int b = range.begin; b < range.end; ++b)
-                            area += this->boundary->area(b);
+                          const double area =
+                            this->boundary->held_area_of_range(r);
+                          double volume = 0;
                           if (k < step.active->n_material_cells())
                             for (unsigned int p = points.ranges()[k].begin;
                                  p < points.ranges()[k].end;
                                  ++p)
                               volume += points.data(p)[points.slots().volume];
-                          widths[r] = volume / area;
+                          if (area > 0)
+                            widths[r] = volume / area;
                         });
     }
 
@@ -148,7 +148,9 @@ namespace Impoint
       Condition   condition;
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
-          const double area = this->boundary->area(b);
+          const double area = this->boundary->held_area(b);
+          if (area == 0)
+            continue;
           if (exact)
             {
               const bool tangent_wanted = system.matrix != nullptr;
@@ -191,10 +193,10 @@ namespace Impoint
           Tensor<1, dim> force, gap;
           double        *couple = this->boundary->data(b) + slots.couple;
           std::fill(couple, couple + (dim == 2 ? 1 : 3), 0.);
-          if (u != nullptr)
+          const double area = this->boundary->held_area(b);
+          if (u != nullptr && area > 0)
             {
               evaluate(r, b, n, u, false, condition);
-              const double         area = this->boundary->area(b);
               const Tensor<1, dim> normal =
                 this->boundary->vector(b, slots.normal);
               const Tensor<1, dim> traction =

@@ -58,7 +58,7 @@ namespace Impoint
               for (unsigned int d = 0; d < dim; ++d)
                 sums.local_element(nodes[a] * dim + d) +=
                   boundary.vector(b, boundary.slots().normal)[d] *
-                  boundary.area(b) * boundary.support(b)[a];
+                  boundary.held_area(b) * boundary.support(b)[a];
         });
       sums.compress(VectorOperation::add);
       sums.update_ghost_values();

@@ -45,7 +45,7 @@ namespace Impoint
           particles.insert(particles.end(),
                            normal.begin_raw(),
                            normal.end_raw());
-          particles.push_back(boundary.area(b));
+          particles.push_back(boundary.held_area(b));
         }
       const bool changed =
         fresh || cells != last_cells || particles != last_particles;

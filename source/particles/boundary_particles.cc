@@ -18,6 +18,7 @@ namespace Impoint
     , start(layout.add("start", dim))
     , normal(layout.add("normal", dim))
     , area(layout.add("area", 1))
+    , held(layout.add("held area", 1))
     , gap(layout.add("gap", dim))
     , increment(layout.add("increment", dim))
     , multiplier(layout.add("multiplier", dim))
@@ -68,10 +69,23 @@ namespace Impoint
               }
           }
         state[slot.area] = seed.area * thickness;
+        state[slot.held] = state[slot.area];
         particles.push_back(
           {seed.cell, types::particle_index(seed.number), std::move(state)});
       }
     this->insert(particles);
+  }
+
+
+
+  template <int dim>
+  double BoundaryParticles<dim>::held_area_of_range(const unsigned int r) const
+  {
+    const auto &range = this->ranges()[r];
+    double      sum   = 0;
+    for (unsigned int b = range.begin; b < range.end; ++b)
+      sum += held_area(b);
+    return sum;
   }
 
 

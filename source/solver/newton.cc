@@ -84,16 +84,20 @@ namespace Impoint
 
   /** Where contact opens and closes at next to no force, displacements of
    * nodes that hold next to no material jump with it for ever: there, forces
-   * that stay in balance are enough. */
+   * that stay in balance are enough. So they are where displacements are
+   * round-off of those of all steps before, as in a step without new loads. */
   template <int dim>
   bool Newton<dim>::has_converged(const Vector &delta, const Vector &u)
   {
-    constexpr unsigned int enough   = 3;
-    const double           residual = history.back();
+    constexpr unsigned int enough    = 3;
+    constexpr double       round_off = 1e6; // of an accurate displacement
+    const double           residual  = history.back();
     if (!system.contact_settled())
       return false;
     n_balanced = residual <= parameters.tolerance ? n_balanced + 1 : 0;
-    if (n_balanced == enough && system.has_kinks())
+    if (n_balanced >= enough &&
+        (system.has_kinks() ||
+         delta.linfty_norm() <= round_off * system.smallest_displacement()))
       return true;
     return delta.linfty_norm() <=
              std::max(parameters.increment_tolerance * u.linfty_norm(),

@@ -124,6 +124,13 @@ namespace Impoint
         return true;
       }
 
+      /** Whether only those particles hold that have material before them: each
+       * for itself, while means over a cell hold all of it. */
+      virtual bool holds_by_particle() const
+      {
+        return false;
+      }
+
       /** Its multipliers; null: the condition holds without. */
       virtual MultiplierUpdates *multiplier_updates()
       {

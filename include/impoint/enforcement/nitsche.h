@@ -44,6 +44,10 @@ namespace Impoint
                const Strength     strength,
                CellSystem        &system) const override;
       bool is_symmetric() const override;
+      bool holds_by_particle() const override
+      {
+        return true;
+      }
       void end_step(const unsigned int r, const double *u) override;
       void follow_material(const unsigned int r, const double *u) override;
 

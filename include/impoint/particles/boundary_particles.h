@@ -32,11 +32,12 @@ namespace Impoint
       explicit Slots(const CarriedByBoundary &carried);
 
       PropertyLayout layout;
-      unsigned int   x;          // place of the wall [m]
-      unsigned int   start;      // place at the start of the run
-      unsigned int   normal;     // unit, out of the material
-      unsigned int   area;       // [m2], in 2D times the thickness
-      unsigned int   gap;        // material minus wall, total; slip: [0] normal
+      unsigned int   x;      // place of the wall [m]
+      unsigned int   start;  // place at the start of the run
+      unsigned int   normal; // unit, out of the material
+      unsigned int   area;   // [m2], in 2D times the thickness
+      unsigned int   held;   // the part of the area that has material before it
+      unsigned int   gap;    // material minus wall, total; slip: [0] normal
       unsigned int   increment;  // of the wall in this step
       unsigned int   multiplier; // of an augmented condition; slip: [0]
       unsigned int   force;      // on the material [N], end of the last step
@@ -88,6 +89,18 @@ namespace Impoint
     double area(const unsigned int b) const
     {
       return this->data(b)[slot.area];
+    }
+
+    /** What of its area takes part in the boundary's condition: that of a
+     * particle with material before it, or none. */
+    double held_area(const unsigned int b) const
+    {
+      return this->data(b)[slot.held];
+    }
+    double held_area_of_range(const unsigned int r) const;
+    void   hold(const unsigned int b, const bool wanted)
+    {
+      this->data(b)[slot.held] = wanted ? area(b) : 0.;
     }
 
     /** Of the plane through the particles of range @p r, with their mean
