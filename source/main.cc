@@ -1,5 +1,6 @@
 #include <impoint/base/command_line.h>
 #include <impoint/base/parameter_file.h>
+#include <impoint/base/paths.h>
 #include <impoint/scene.h>
 #include <impoint/simulation.h>
 
@@ -43,6 +44,15 @@ void obey(const CommandLine &command, std::ostream &out)
 int main(int argc, char *argv[])
 {
   use_one_blas_thread();
+  try
+    {
+      absolute_path(".", "the command line"); // else PETSc aborts
+    }
+  catch (const InputError &error)
+    {
+      std::cerr << error.what() << std::endl;
+      return 1;
+    }
   int                              no_options = 1; // PETSc would take --help
   Utilities::MPI::MPI_InitFinalize mpi(no_options, argv, 1);
   Utilities::MPI::DuplicatedCommunicator failures(MPI_COMM_WORLD);

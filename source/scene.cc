@@ -30,9 +30,10 @@ namespace Impoint
                       Patterns::Integer(0));
     prm.add_parameter("Checkpoint minutes",
                       checkpoint_minutes,
-                      "Minutes between two checkpoints; 0: none by time. As "
-                      "the solver starts anew at each, the last digits of long "
-                      "runs depend on when they come.",
+                      "Minutes between two checkpoints, which wait for a step "
+                      "where the solver starts anew (every hundred residuals); "
+                      "0: none by time. A run that was resumed ends with the "
+                      "same digits.",
                       Patterns::Double(0));
     prm.leave_subsection();
     file.declare_as_path("Output/Folder");

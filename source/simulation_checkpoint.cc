@@ -1,19 +1,66 @@
 // What Simulation stores to go on from, and goes on from.
 
 #include <impoint/base/on_all_ranks.h>
+#include <impoint/base/parameter_file.h>
 #include <impoint/base/scoped_seconds.h>
 #include <impoint/particles/stored_particles.h>
 #include <impoint/simulation.h>
 #include <impoint/solver/stored_nodes.h>
 
+#include <map>
+
 namespace Impoint
 {
+  namespace
+  {
+    using Values = std::vector<std::pair<std::string, std::string>>;
+
+    /** The entries without which a stored state means nothing: in which cells
+     * particles are, whose they are, what their history is. */
+    Values what_must_agree(const ParameterFile &file)
+    {
+      Values values;
+      for (const auto &[path, value] : file.used())
+        if (path == "Dimension" || path == "Time/Kind" ||
+            path.rfind("Grid/", 0) == 0 || Words::last_part(path) == "Names" ||
+            Words::last_part(path) == "Model")
+          values.emplace_back(path, value);
+      return values;
+    }
+
+
+
+    void check_agreement(const ParameterFile &file, const Values &stored)
+    {
+      const std::map<std::string, std::string> old(stored.begin(),
+                                                   stored.end());
+      for (const auto &[path, value] : what_must_agree(file))
+        {
+          const auto found = old.find(path);
+          if (found == old.end() || found->second != value)
+            throw file.error(path,
+                             "'" + value + "' does not fit the checkpoint, " +
+                               (found == old.end() ?
+                                  "whose run had no such entry" :
+                                  "whose run had '" + found->second + "'"),
+                             "Resume with the entry as it was, or run the "
+                             "altered scene from its beginning.");
+        }
+    }
+  } // namespace
+
+
+
   /** All but the particles; the same on all ranks, but for what rank 0 alone
    * counts and writes. */
   template <int dim>
   void Simulation<dim>::save_or_load(StateArchive &archive)
   {
     archive.tag("impoint " + std::to_string(dim) + "D");
+    auto     stored = what_must_agree(file);
+    archive &stored;
+    if (archive.reads())
+      check_agreement(file, stored);
     archive &time &last_step &step_size.size &step_size.n_good;
     archive                                  &inertia.largest_energy();
     for (std::size_t *count : counters.all())
@@ -60,8 +107,8 @@ namespace Impoint
                               counters.steps,
                               of_run.bytes(),
                               particles.bytes());
-    solver_starts_anew = true;
-    last_checkpoint    = std::chrono::steady_clock::now();
+    stored_step     = counters.steps;
+    last_checkpoint = std::chrono::steady_clock::now();
   }
 
 
@@ -77,6 +124,8 @@ namespace Impoint
     earlier_seconds          = seconds.total;
     linear_iterations_before = counters.linear_iterations;
     patterns_before          = counters.patterns;
+    residuals_before         = counters.residuals;
+    stored_step              = counters.steps;
 
     const OwnCells cells = own_cells(grid);
     restore_particles(stored.particles, cells, comm, *points);

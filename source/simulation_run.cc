@@ -13,25 +13,47 @@ namespace Impoint
   template <int dim>
   void Simulation<dim>::run()
   {
-    begin();
     try
       {
+        begin();
         const StopSignals signals;
         step_through(signals);
       }
-    catch (const RunFailed &failure)
+    catch (const InputError &) // nothing was computed
       {
-        // What follows is collective.
-        if (!all_ranks_arrive(*failures))
-          throw;
-        const bool stopped = dynamic_cast<const RunStopped *>(&failure);
-        if (!stopped)
-          u.reinit(0); // of a step that failed
-        keep_last_good_state();
-        end(stopped ? "stopped" : "failed", failure.what());
+        throw;
+      }
+    catch (const std::exception &failure)
+      {
+        fail(failure);
         throw;
       }
     end("done", "");
+  }
+
+
+
+  /** Keeps what there is, as far as the disk takes it. */
+  template <int dim>
+  void Simulation<dim>::fail(const std::exception &failure)
+  {
+    // What follows is collective.
+    if (!all_ranks_arrive(*failures))
+      return;
+    const bool stopped = dynamic_cast<const RunStopped *>(&failure);
+    const bool said    = dynamic_cast<const RunFailed *>(&failure);
+    if (!stopped)
+      u.reinit(0); // of a step that failed
+    try
+      {
+        keep_last_good_state();
+        end(stopped ? "stopped" : "failed",
+            said ? failure.what() : "an error inside impoint or a library");
+      }
+    catch (const RunFailed &further)
+      {
+        terminal.warning(further.what());
+      }
   }
 
 
@@ -100,9 +122,7 @@ namespace Impoint
               throw RunFailed(failure.what());
             u.reinit(0);
             halve(now, failure);
-            bool stop = signals.arrived();
-            checkpoint_is_due(stop);
-            if (stop)
+            if (Utilities::MPI::max(int(signals.arrived()), comm))
               throw told_to_stop();
             continue;
           }
@@ -110,8 +130,7 @@ namespace Impoint
           step_size = {std::min(2. * step_size.size, given), 0};
 
         bool stop = signals.arrived();
-        if (checkpoint_is_due(stop))
-          write_checkpoint();
+        checkpoint(stop);
         if (stop && !scene.time.is_over(time))
           throw told_to_stop();
       }
@@ -130,6 +149,7 @@ namespace Impoint
                       ". Smaller steps would not help: no load depends on t. "
                       "Let it grow with time, e.g. Body force = 0; -9.81 * t");
     ++counters.halved_steps;
+    stored_step.reset(); // with another size of the next step
     step_size = {0.5 * failed, 0};
     if (step_size.size < scene.time.smallest * scene.time.step ||
         time + step_size.size == time)
@@ -156,20 +176,32 @@ namespace Impoint
 
 
 
-  /** Whether to write a checkpoint now; sets @p stop if any rank was told to
-   * stop, or to. Collective. */
+  /** Writes a checkpoint if one is due; sets @p stop if any rank was told to
+   * stop. A resumed run has no factor of earlier steps. That it goes on with
+   * the same digits, the running one forgets its own there, too: at steps that
+   * its course alone decides on, not the clock. What the clock asks for is
+   * written at the next of these. Collective. */
   template <int dim>
-  bool Simulation<dim>::checkpoint_is_due(bool &stop) const
+  void Simulation<dim>::checkpoint(bool &stop)
   {
-    const auto  &output  = scene.output;
-    const double minutes = seconds_since(last_checkpoint) / 60.;
-    const bool   in_time =
-      output.checkpoint_minutes > 0 && minutes >= output.checkpoint_minutes;
+    constexpr std::size_t enough  = 100; // a new factor costs little beside
+    const auto           &output  = scene.output;
+    const double          minutes = seconds_since(last_checkpoint) / 60.;
+    const int             in_time = minutes >= output.checkpoint_minutes;
     // A run that stops writes one anyway.
-    const int wanted = Utilities::MPI::max(stop ? 2 : (in_time ? 1 : 0), comm);
-    stop             = wanted == 2;
-    return wanted == 1 || (output.checkpoint_every > 0 &&
-                           counters.steps % output.checkpoint_every == 0);
+    const int told = Utilities::MPI::max(stop ? 2 : in_time, comm);
+    stop           = told == 2;
+
+    const bool by_steps = output.checkpoint_every > 0 &&
+                          counters.steps % output.checkpoint_every == 0;
+    solver_starts_anew =
+      by_steps || (output.checkpoint_minutes > 0 &&
+                   counters.residuals - residuals_before >= enough);
+    if (!solver_starts_anew)
+      return;
+    residuals_before = counters.residuals;
+    if (by_steps || told == 1)
+      write_checkpoint();
   }
 
 
@@ -184,7 +216,7 @@ namespace Impoint
       {
         if (!is_whole)
           return;
-        if (!solver_starts_anew)
+        if (stored_step != counters.steps)
           write_checkpoint();
         if (pictured_step != counters.steps)
           picture();

@@ -34,7 +34,6 @@ namespace Impoint
         });
       system->set_reached(reached);
     }
-    // Resumed or gone on after a checkpoint: the same digits with a new factor.
     if (changed || solver_starts_anew)
       system->new_active_set();
     if (changed || points_changed_cells || solver_starts_anew)

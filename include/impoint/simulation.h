@@ -15,6 +15,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Impoint
@@ -54,6 +55,7 @@ namespace Impoint
     void        check_boundaries();
     void        begin();
     void        step_through(const StopSignals &signals);
+    void        fail(const std::exception &failure);
     std::string of_step(const double dt) const;
     RunStopped  told_to_stop() const;
     void        halve(const double failed, const StepFailed &failure);
@@ -72,7 +74,7 @@ namespace Impoint
     void picture();
     void fill_record();
     bool has_moved() const;
-    bool checkpoint_is_due(bool &stop) const;
+    void checkpoint(bool &stop);
     void write_checkpoint();
     void save_or_load(StateArchive &archive);
     void resume(StoredState stored);
@@ -111,13 +113,15 @@ namespace Impoint
     double   time = 0, last_step = 0;
     StepSize step_size;
     bool     points_changed_cells = true;
-    bool     solver_starts_anew   = false; // after a checkpoint
+    bool     solver_starts_anew   = false;
     bool is_whole = true; // state of one time, not in the middle of an update
-    const bool        resumed, constant_load;
-    std::size_t       linear_iterations_before = 0; // the last step
-    std::size_t       patterns_before          = 0; // the resumed run
-    std::size_t       pictured_step            = 0; // the last one
-    std::vector<char> told_of_lost_load;            // per method
+    const bool  resumed, constant_load;
+    std::size_t linear_iterations_before = 0;     // the last step
+    std::size_t patterns_before          = 0;     // the resumed run
+    std::size_t residuals_before         = 0;     // when the solver last began
+    std::size_t pictured_step            = 0;     // the last one
+    std::optional<std::size_t> stored_step;       // of the newest checkpoint
+    std::vector<char>          told_of_lost_load; // per method
     std::chrono::steady_clock::time_point last_checkpoint;
     double                                earlier_seconds = 0;
     Vector                                u;

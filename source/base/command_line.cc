@@ -1,6 +1,7 @@
 #include <impoint/base/command_line.h>
 #include <impoint/base/exceptions.h>
 #include <impoint/base/on_all_ranks.h>
+#include <impoint/base/paths.h>
 #include <impoint/base/stop_signals.h>
 #include <impoint/base/words.h>
 
@@ -150,8 +151,7 @@ namespace Impoint
     if (option == "--set")
       overrides.push_back(value);
     else if (option == "--output")
-      run_options.output_folder =
-        std::filesystem::absolute(value).lexically_normal().string();
+      run_options.output_folder = absolute_path(value, "the command line");
     else if (option == "--overwrite")
       run_options.overwrite = true;
     else if (option == "--check")
@@ -178,8 +178,7 @@ namespace Impoint
   {
     choose(Action::run, "--resume");
     run_options.resume = true;
-    resumed_folder =
-      std::filesystem::absolute(folder).lexically_normal().string();
+    resumed_folder     = absolute_path(folder, "the command line");
   }
 
 

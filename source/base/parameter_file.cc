@@ -1,5 +1,6 @@
 #include <impoint/base/declared_paths.h>
 #include <impoint/base/parameter_file.h>
+#include <impoint/base/paths.h>
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
@@ -227,10 +228,8 @@ namespace Impoint
     const auto        found = assignments.entries.find(path);
     const std::string from =
       found == assignments.entries.end() ? scene_file : found->second.file;
-    const auto folder = std::filesystem::absolute(from.empty() ? "." : from);
-    return ((from.empty() ? folder : folder.parent_path()) / name)
-      .lexically_normal()
-      .string();
+    const auto folder = std::filesystem::path(from).parent_path();
+    return absolute_path((folder / name).string(), place(path));
   }
 
 
@@ -290,30 +289,46 @@ namespace Impoint
             open.push_back(*section);
           }
 
-        const bool is_path =
-          std::find(path_entries.begin(), path_entries.end(), entry.path) !=
-          path_entries.end();
-        // a template may be used from another folder, where defaults mean
-        // another place but what the user wrote must not
-        const bool made_absolute =
-          is_path && (is_assigned(entry.path) || !as_template);
         if (as_template)
           out << indent() << "# " << on_one_line(entry.documentation) << " ["
               << Words::allowed(entry.pattern) << "; default '"
               << entry.default_value << "']\n";
-        const std::string text =
-          made_absolute ? absolute(entry.path) : value(entry.path);
-        if (made_absolute && (text.find_first_of("#\n") != std::string::npos ||
-                              Words::trim(text) != text ||
-                              (!text.empty() && text.back() == '\\')))
-          throw error(entry.path,
-                      "no scene file can hold the path '" + text + "'",
-                      "Use folders and files without '#', and without blanks, "
-                      "line breaks or '\\' at the end.");
         out << indent() << "set " << Words::last_part(entry.path) << " = "
-            << text << '\n';
+            << text_of(entry.path, as_template) << '\n';
       }
     close(0);
+  }
+
+
+
+  std::string ParameterFile::text_of(const std::string &path,
+                                     const bool         as_template) const
+  {
+    const bool is_path =
+      std::find(path_entries.begin(), path_entries.end(), path) !=
+      path_entries.end();
+    // a template may be used from another folder, where defaults mean
+    // another place but what the user wrote must not
+    if (!is_path || (as_template && !is_assigned(path)))
+      return value(path);
+    const std::string text = absolute(path);
+    if (text.find_first_of("#\n") != std::string::npos ||
+        Words::trim(text) != text || (!text.empty() && text.back() == '\\'))
+      throw error(path,
+                  "no scene file can hold the path '" + text + "'",
+                  "Use folders and files without '#', and without blanks, "
+                  "line breaks or '\\' at the end.");
+    return text;
+  }
+
+
+
+  std::vector<std::pair<std::string, std::string>> ParameterFile::used() const
+  {
+    std::vector<std::pair<std::string, std::string>> values;
+    for (const auto &entry : entries())
+      values.emplace_back(entry.path, text_of(entry.path, false));
+    return values;
   }
 
 

@@ -60,14 +60,20 @@ namespace Impoint
   void SceneReader::read(const std::string &file_name,
                          const std::string &wanted_by)
   {
-    const auto identity = std::filesystem::weakly_canonical(file_name);
+    std::error_code failed;
+    const auto identity = std::filesystem::weakly_canonical(file_name, failed);
+    if (failed)
+      throw InputError("the file '" + file_name +
+                         "' cannot be looked for: " + failed.message(),
+                       wanted_by,
+                       "Give the name of a file that exists.");
     for (const auto &source : sources)
       if (source.identity == identity)
         throw InputError("'" + file_name +
                            "' includes itself, directly or through other files",
                          wanted_by,
                          "Take this include away.");
-    if (std::filesystem::is_directory(file_name))
+    if (std::filesystem::is_directory(file_name, failed))
       throw InputError("'" + file_name + "' is a folder",
                        wanted_by,
                        "Name a .prm file in it.");

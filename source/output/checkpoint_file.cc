@@ -18,10 +18,13 @@ namespace Impoint
 
   namespace
   {
-    // The file: this line; of each rank the size of its piece and the piece,
-    // which is the run's and the particles' bytes, each after their number; the
-    // checksum of all that.
-    const std::string first_line = "impoint checkpoint, format 1\n";
+    // The file: a line with this and the format; of each rank the size of its
+    // piece and the piece, which is the run's and the particles' bytes, each
+    // after their number; the checksum of all that. The format is that of all
+    // the bytes: what changes them, here or in what a run stores of itself,
+    // raises it.
+    const std::string first_words = "impoint checkpoint, format ";
+    const std::string format      = "2";
 
     using Number = std::uint64_t;
 
@@ -66,7 +69,8 @@ namespace Impoint
       explicit CheckpointWriter(const std::string &path)
         : file(path, std::ios::binary | std::ios::trunc)
       {
-        put(first_line.data(), first_line.size());
+        const std::string line = first_words + format + '\n';
+        put(line.data(), line.size());
       }
 
       void put_piece(const std::string &piece)
@@ -106,14 +110,26 @@ namespace Impoint
 
 
 
+    /** What cannot be read holds none. */
+    std::vector<fs::path> files_in(const fs::path    &folder,
+                                   const std::string &extension)
+    {
+      std::vector<fs::path> files;
+      std::error_code       failed;
+      for (fs::directory_iterator entry(folder, failed), end;
+           !failed && entry != end;
+           entry.increment(failed))
+        if (entry->path().extension() == extension)
+          files.push_back(entry->path());
+      return files;
+    }
+
+
+
     /** Newest first: the names end in digits of one length. */
     std::vector<fs::path> checkpoints_in(const fs::path &folder)
     {
-      std::vector<fs::path> files;
-      std::error_code       ignored;
-      for (const auto &entry : fs::directory_iterator(folder, ignored))
-        if (entry.path().extension() == ".state")
-          files.push_back(entry.path());
+      auto files = files_in(folder, ".state");
       std::sort(files.rbegin(), files.rend());
       return files;
     }
@@ -127,9 +143,8 @@ namespace Impoint
       auto            files = checkpoints_in(folder);
       files.erase(files.begin(),
                   files.begin() + std::min<std::size_t>(2, files.size()));
-      for (const auto &entry : fs::directory_iterator(folder, ignored))
-        if (entry.path().extension() == ".part")
-          files.push_back(entry.path());
+      const auto parts = files_in(folder, ".part");
+      files.insert(files.end(), parts.begin(), parts.end());
       for (const auto &file : files)
         fs::remove(file, ignored);
     }
@@ -149,10 +164,19 @@ namespace Impoint
         left                    = ignored ? 0 : n_bytes;
       }
 
-      bool starts_right()
+      /** The format; none if the first words are others. */
+      std::string start()
       {
-        std::string line(first_line.size(), ' ');
-        return take(line.data(), line.size()) && line == first_line;
+        std::string words(first_words.size(), ' '), number;
+        if (!take(words.data(), words.size()) || words != first_words)
+          return "";
+        for (char letter; number.size() < 20 && take(&letter, 1);)
+          {
+            if (letter == '\n')
+              return number;
+            number += letter;
+          }
+        return "";
       }
 
       /** The sum of all before it is at the end. */
@@ -212,13 +236,22 @@ namespace Impoint
 
 
     /** Where the run and the particles of each rank are in a file; nothing if
-     * it is not complete. */
+     * it is not complete. Throws InputError if it is of another format. */
     std::vector<StoredPieces::Extent> find_parts(const std::string &path)
     {
       CheckpointReader                  file(path);
       std::vector<StoredPieces::Extent> parts;
-      if (!file.starts_right())
+      const std::string                 written = file.start();
+      if (written.empty())
         return {};
+      if (written != format)
+        throw InputError("the checkpoint '" + path + "' has format " + written +
+                           ", this version of impoint (" IMPOINT_VERSION
+                           ") reads and writes format " +
+                           format,
+                         "option --resume",
+                         "Resume with the version that wrote it, or run the "
+                         "scene from its beginning.");
       while (file.has_pieces())
         {
           const Number size = file.number();
@@ -268,7 +301,8 @@ namespace Impoint
         throw cannot_write(part);
       // A checkpoint counts on as many rows of the history as it has steps.
       const std::string history = folder.path() + "/history.csv";
-      if (fs::exists(history))
+      std::error_code   ignored;
+      if (fs::exists(history, ignored))
         to_disk(history);
       to_disk(part);
       if (std::rename(part.c_str(), path.c_str()) != 0)

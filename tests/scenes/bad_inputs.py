@@ -124,6 +124,21 @@ def check_first_step_fails(ranks):
     print(f"constant load, {ranks} ranks: not halved, no results: yes")
 
 
+def check_begin_fails(ranks):
+    """The first picture has no place: that ends the run as in any step."""
+    Path("results").mkdir(exist_ok=True)
+    Path("results/vtu").touch()
+    process = impoint([SCENE, "--set", "Output/Pictures every = 1"], ranks)
+    said = [line for line in process.stderr.splitlines() if "Error: " in line]
+    expect(process.returncode == 2 and len(said) == 1 and
+           re.search("vtu/points.* cannot be written: Not a directory", said[0]),
+           process.stdout + process.stderr)
+    summary = json.loads((RESULTS / "summary.json").read_text())
+    expect(summary["status"] == "failed" and
+           summary["message"] in said[0], summary)
+    print(f"no place for pictures, {ranks} ranks: status 2, summary: yes")
+
+
 def check_newton_fails():
     """No step is small enough for an iteration that may not iterate."""
     remove_results()
@@ -182,6 +197,9 @@ def main():
     Path("number#1/scene.prm").write_text(GOOD)
     Path("full").mkdir(exist_ok=True)
     Path("full/summary.json").write_text("{}\n")
+    Path("kept/history.csv/file").mkdir(parents=True, exist_ok=True)
+    Path("loop.prm").unlink(missing_ok=True)
+    Path("loop.prm").symlink_to("loop.prm")
     Path("rerun").mkdir(exist_ok=True)
     Path("rerun/parameters.prm").write_text(
         GOOD.replace("Folder = results", "Folder = ."))
@@ -195,6 +213,8 @@ def main():
     check_two_ranks()
     check_newton_fails()
     for ranks in (1, 2):
+        remove_results()
+        check_begin_fails(ranks)
         check_failing_run(ranks)
         check_first_step_fails(ranks)
         check_expressions_fail(ranks)

@@ -52,13 +52,56 @@ def check_damage(whole):
     said = finish(["--resume", folder], status=1)
     expect("holds no checkpoint" in said, said)
 
-    folder = copied(whole, "altered scene")
-    scene = (folder / "parameters.prm").read_text()
-    scene = re.sub(r"(set Quantity *= *)impulse", r"\1reaction", scene)
-    (folder / "parameters.prm").write_text(scene)
-    said = finish(["--resume", folder], status=1)
-    expect("does not fit the scene" in said, said)
+    for entry, old, new, says in (
+            ("Quantity", "impulse", "reaction", "does not fit the scene"),
+            ("Shift", "-1.03, -8.04", "-1.04, -8.04",
+             "'Shift' in section 'Grid'.*whose run had '-1.03, -8.04'")):
+        folder = copied(whole, "altered scene")
+        scene = (folder / "parameters.prm").read_text()
+        altered = re.sub(f"(set {entry} *= *){old}", rf"\g<1>{new}", scene)
+        expect(altered != scene, f"no {entry} in {scene}")
+        (folder / "parameters.prm").write_text(altered)
+        expect_error(folder, says)
     print("no checkpoint, or one of another scene: said so")
+
+
+def expect_error(folder, says, ranks=1):
+    said = finish(["--resume", folder], ranks, status=1)
+    lines = said[said.index("Error: "):].splitlines()
+    expect(said.count("Error: ") == 1 and lines[1].startswith("  in ") and
+           lines[2].startswith("  ") and
+           re.search(says, " ".join(sorted(lines[:3]))), said)
+
+
+def check_format(whole):
+    """That of the newest file counts: an older one would lose steps."""
+    for old in ("1", "10"):
+        folder = copied(whole, "other format")
+        newest = states(folder)[-1]
+        stored = newest.read_bytes().replace(b"format 2\n", f"format {old}\n".encode(), 1)
+        newest.write_bytes(stored)
+        expect_error(folder, f"has format {old}, this version of impoint .* format 2",
+                     ranks=2 if old == "1" else 1)
+    print("a checkpoint of another format: said so")
+
+
+def check_clock(whole):
+    """Checkpoints by the clock leave the digits of the running simulation, and
+    what goes on from them ends with the same."""
+    files = []
+    for minutes in ("1e-9", "1000"):
+        folder = Path(f"minutes-{minutes}")
+        finish([*BLOCK, "--output", folder, "--overwrite",
+                "--set", "Output/Checkpoint every = 0",
+                "--set", f"Output/Checkpoint minutes = {minutes}"])
+        files.append(files_of(folder))
+        expect(bool(states(folder)) == (minutes == "1e-9"), f"{states(folder)}")
+    expect(files[0] == files[1], "checkpoints by the clock alter digits")
+    folder = Path("minutes-1e-9")
+    said = finish(["--resume", folder])
+    expect("goes on after step 29" in said and files_of(folder) == files[0],
+           "other digits than not stopped:\n" + said)
+    print("checkpoints by the clock: the same digits")
 
 
 def expect_pictures(folder, number):
@@ -125,6 +168,8 @@ def main():
     whole = Path("whole")
     finish([*BLOCK, "--output", whole, "--overwrite"])
     check_damage(whole)
+    check_format(whole)
+    check_clock(whole)
     check_signal(whole)
     check_failure()
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace Impoint
@@ -110,6 +111,9 @@ namespace Impoint
     /** The values in use, paths absolute: running it repeats the run. */
     void print_used(std::ostream &out) const;
 
+    /** The same as paths of entries and values. */
+    std::vector<std::pair<std::string, std::string>> used() const;
+
     const std::string &file_name() const;
 
   private:
@@ -121,9 +125,10 @@ namespace Impoint
     /** What has been declared, in this order. */
     std::vector<Entry> entries() const;
 
-    void set(const Entry &entry);
-    bool is_assigned(const std::string &path) const;
-    void print(std::ostream &out, const bool as_template) const;
+    void        set(const Entry &entry);
+    bool        is_assigned(const std::string &path) const;
+    void        print(std::ostream &out, const bool as_template) const;
+    std::string text_of(const std::string &path, const bool as_template) const;
 
     std::string                        scene_file;
     EntryHandler                       prm;
