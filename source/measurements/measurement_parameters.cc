@@ -78,12 +78,13 @@ namespace Impoint
     prm.add_parameter("Boundary",
                       boundary,
                       users_of("Boundary") + ": name of the boundary.");
-    prm.add_parameter("Point",
-                      point,
-                      "Probe: place at the start [m]; reaction: point about "
-                      "which the moment is; errors: origin of the frame "
-                      "('Frame angle'). Empty: the origin.",
-                      numbers);
+    prm.add_parameter(
+      "Point",
+      point,
+      "Probe: place at the start [m]; reaction and "
+      "momentum: point about which the moment is; errors: origin of the frame "
+      "('Frame angle'). Empty: the origin.",
+      numbers);
     prm.add_parameter("Direction",
                       direction,
                       users_of("Direction") + ": direction, of any length.",

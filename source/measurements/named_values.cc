@@ -115,6 +115,18 @@ namespace Impoint
 
 
     template <int dim>
+    std::vector<std::string> with_moments(const std::string &symbol,
+                                          const std::string &moment)
+    {
+      auto names = with_components<dim>(symbol);
+      for (unsigned int d = dim == 2 ? 2 : 0; d < 3; ++d)
+        names.push_back(moment + "_" + "xyz"[d]);
+      return names;
+    }
+
+
+
+    template <int dim>
     Tensor<1, dim> to_vector(const std::vector<double> &numbers)
     {
       Tensor<1, dim> vector;
@@ -146,6 +158,10 @@ namespace Impoint
 
     template std::vector<std::string> with_components<2>(const std::string &);
     template std::vector<std::string> with_components<3>(const std::string &);
+    template std::vector<std::string> with_moments<2>(const std::string &,
+                                                      const std::string &);
+    template std::vector<std::string> with_moments<3>(const std::string &,
+                                                      const std::string &);
     template Tensor<1, 2>             to_vector<2>(const std::vector<double> &);
     template Tensor<1, 3>             to_vector<3>(const std::vector<double> &);
   } // namespace Measurements

@@ -4,6 +4,7 @@
 #include <impoint/measurements/energy.h>
 #include <impoint/measurements/field_error.h>
 #include <impoint/measurements/impulse.h>
+#include <impoint/measurements/momentum.h>
 #include <impoint/measurements/penetration.h>
 #include <impoint/measurements/probe.h>
 #include <impoint/measurements/quantities.h>
@@ -81,6 +82,11 @@ namespace Impoint
                             "[Ns]",
                      {"Boundary", "Reference"},
                      "I_x; I_y; I_z"),
+               row<Momentum>("momentum",
+                      "of all material points [kg m/s], and angular momentum "
+                             "[kg m2/s]",
+                      {"Point", "Reference"},
+                      "p_x; p_y; p_z; L_x; L_y; L_z, in 2D p_x; p_y; L_z"),
                row<FieldError>("displacement error",
                         "of the material points against exact values",
                         of_errors),

@@ -8,27 +8,10 @@ namespace Impoint
 {
   namespace Measurements
   {
-    namespace
-    {
-      template <int dim>
-      std::vector<std::string> names_of_reactions()
-      {
-        auto names = with_components<dim>("F");
-        if constexpr (dim == 2)
-          names.push_back("M_z");
-        else
-          for (const auto &moment : with_components<3>("M"))
-            names.push_back(moment);
-        return names;
-      }
-    } // namespace
-
-
-
     template <int dim>
     Reaction<dim>::Reaction(const ParameterFile         &file,
                             const MeasurementParameters &parameters)
-      : NamedValues<dim>(file, parameters, names_of_reactions<dim>())
+      : NamedValues<dim>(file, parameters, with_moments<dim>("F", "M"))
       , boundary(parameters.boundary)
       , centre(to_vector<dim>(parameters.point))
     {}

@@ -137,12 +137,15 @@ namespace Impoint
     for (Vector *vector : {&masses, &velocities, &accelerations})
       vector->compress(VectorOperation::add);
     masses.update_ghost_values();
-    if (projects_consistently)
-      for (Vector *vector : {&velocities, &accelerations})
-        divide_by_consistent_mass(active, points, *vector);
-    else
-      for (Vector *vector : {&velocities, &accelerations})
-        divide_by_mass(*vector);
+    for (Vector *vector : {&velocities, &accelerations})
+      {
+        Vector means(*vector);
+        divide_by_mass(means);
+        if (projects_consistently)
+          divide_by_consistent_mass(active, points, means, *vector);
+        else
+          vector->swap(means);
+      }
     if (filter > 0)
       find_seen_velocities(active, points);
     if (filter_at_rest > 0)

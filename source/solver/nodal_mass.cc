@@ -80,6 +80,7 @@ namespace Impoint
   template <int dim>
   void divide_by_consistent_mass(const ActiveNodes<dim>    &active,
                                  const MaterialPoints<dim> &points,
+                                 const Vector              &first_guess,
                                  Vector                    &momenta)
   {
     constexpr double       tolerance      = 1e-14;
@@ -87,13 +88,20 @@ namespace Impoint
 
     const Vector inverse = inverse_diagonal(active, points);
     Vector       residual(active.unknowns()), x(active.unknowns()), product;
+    x.copy_locally_owned_data_from(first_guess);
     residual.copy_locally_owned_data_from(momenta);
     Vector scaled(residual);
     scaled.scale(inverse);
-    Vector       direction(scaled);
-    double       square = residual * scaled;
-    const double first  = square;
-    for (unsigned int i = 0; square > tolerance * tolerance * first; ++i)
+    const double enough = tolerance * tolerance * (residual * scaled);
+    x.update_ghost_values();
+    multiply(active, points, x, product);
+    x.zero_out_ghost_values();
+    residual -= product;
+    scaled = residual;
+    scaled.scale(inverse);
+    Vector direction(scaled);
+    double square = residual * scaled;
+    for (unsigned int i = 0; square > enough; ++i)
       {
         if (i == max_iterations)
           throw StepFailed(
@@ -117,8 +125,10 @@ namespace Impoint
 
   template void divide_by_consistent_mass(const ActiveNodes<2> &,
                                           const MaterialPoints<2> &,
+                                          const Vector &,
                                           Vector &);
   template void divide_by_consistent_mass(const ActiveNodes<3> &,
                                           const MaterialPoints<3> &,
+                                          const Vector &,
                                           Vector &);
 } // namespace Impoint

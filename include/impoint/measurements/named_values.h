@@ -47,6 +47,11 @@ namespace Impoint
     template <int dim>
     std::vector<std::string> with_components(const std::string &symbol);
 
+    /** The same, and the components of a moment: in 2D that about z only. */
+    template <int dim>
+    std::vector<std::string> with_moments(const std::string &symbol,
+                                          const std::string &moment);
+
     /** The vector given by @p numbers, zero if there are none. */
     template <int dim>
     Tensor<1, dim> to_vector(const std::vector<double> &numbers);
