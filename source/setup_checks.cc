@@ -227,6 +227,52 @@ namespace Impoint
 
 
   template <int dim>
+  std::vector<std::string>
+  doubts_about_points(const GridParameters      &parameters,
+                      const MaterialPoints<dim> &points,
+                      const Basis<dim>          &basis)
+  {
+    // Emptier cells are the ghost penalty's.
+    constexpr double       filled  = 0.3;
+    constexpr unsigned int n_rigid = dim * (dim + 1) / 2;
+    // Linear functions have hourglasses for this; of splines there is about one
+    // a cell.
+    if (parameters.basis != "quadratic")
+      return {};
+    std::size_t n_cells = 0, n_starved = 0, wanted = 0;
+    for (const auto &range : points.ranges())
+      {
+        double volume = 0;
+        for (unsigned int p = range.begin; p < range.end; ++p)
+          volume += points.data(p)[points.slots().volume];
+        if (volume < filled * points.carried().thickness *
+                       basis.grid().volume(range.cell))
+          continue;
+        const unsigned int modes = basis.n_nodes_of(range.cell) * dim - n_rigid;
+        const unsigned int least = (modes + Voigt<dim>::n - 1) / Voigt<dim>::n;
+        ++n_cells;
+        n_starved += range.end - range.begin < least ? 1 : 0;
+        wanted = std::max<std::size_t>(wanted, least);
+      }
+    const MPI_Comm comm = basis.grid().communicator();
+    n_cells             = Utilities::MPI::sum(n_cells, comm);
+    n_starved           = Utilities::MPI::sum(n_starved, comm);
+    wanted              = Utilities::MPI::max(wanted, comm);
+    if (n_starved == 0)
+      return {};
+    return {
+      std::to_string(n_starved) + " of " + std::to_string(n_cells) +
+      " cells that bodies fill have fewer points than a 'quadratic' basis "
+      "needs (" +
+      std::to_string(wanted) +
+      "): some of its functions resist nothing, and steps may fail. Set "
+      "more 'Points per direction', a finer mesh of the body, 'Points = "
+      "clipped', or 'Basis = linear'."};
+  }
+
+
+
+  template <int dim>
   double inactive_share(const BoundaryParticles<dim> &particles,
                         const ActiveNodes<dim>       &active)
   {
@@ -259,16 +305,18 @@ namespace Impoint
     return constant;
   }
 
-#define IMPOINT_INSTANTIATE(dim)                                 \
-  template std::vector<std::string> doubts_about_boundary(       \
-    const ParameterFile &,                                       \
-    const BoundaryParameters &,                                  \
-    const ConditionParameters &,                                 \
-    const BoundaryParticles<dim> &,                              \
-    const MaterialPoints<dim> &,                                 \
-    const BackgroundGrid<dim> &);                                \
-  template double inactive_share(const BoundaryParticles<dim> &, \
-                                 const ActiveNodes<dim> &);      \
+#define IMPOINT_INSTANTIATE(dim)                                              \
+  template std::vector<std::string> doubts_about_boundary(                    \
+    const ParameterFile &,                                                    \
+    const BoundaryParameters &,                                               \
+    const ConditionParameters &,                                              \
+    const BoundaryParticles<dim> &,                                           \
+    const MaterialPoints<dim> &,                                              \
+    const BackgroundGrid<dim> &);                                             \
+  template std::vector<std::string> doubts_about_points(                      \
+    const GridParameters &, const MaterialPoints<dim> &, const Basis<dim> &); \
+  template double inactive_share(const BoundaryParticles<dim> &,              \
+                                 const ActiveNodes<dim> &);                   \
   template bool   load_is_constant(const ParameterFile &, const Scene<dim> &);
 
   IMPOINT_INSTANTIATE(2)

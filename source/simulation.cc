@@ -111,6 +111,9 @@ namespace Impoint
     if (!resumed)
       for (const auto &doubt : scene.doubts())
         terminal.warning(doubt);
+    if (!resumed)
+      for (const auto &doubt : doubts_about_points(scene.grid, *points, basis))
+        warn(doubt);
     for (unsigned int i = 0, m = 0; i < scene.boundaries.size(); ++i)
       if (!scene.has_particles(i))
         conforming.add_boundary(file, scene.conditions[i], scene.boundaries[i]);

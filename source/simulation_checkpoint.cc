@@ -143,7 +143,7 @@ namespace Impoint
       }
     if (scene.grid.is_kept() && has_moved())
       {
-        inertia.project(active, *points, step_size.size);
+        inertia.project(active, *points, system->ghosts(), step_size.size);
         for (Vector *vector : inertia.carried())
           restore_nodes(stored.particles, cells, active, *vector);
         inertia.set_carried();

@@ -61,7 +61,8 @@ namespace Impoint
     if (dynamic)
       {
         ScopedSeconds timer(seconds.project);
-        counters.projections += inertia.begin_step(active, *points, dt);
+        counters.projections +=
+          inertia.begin_step(active, *points, system->ghosts(), dt);
       }
     system->begin_step(time,
                        end,

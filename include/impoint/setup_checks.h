@@ -26,6 +26,15 @@ namespace Impoint
                         const MaterialPoints<dim>    &points,
                         const BackgroundGrid<dim>    &grid);
 
+  /** What is doubtful about the number of points in the cells of a quadratic
+   * basis: fewer strains than the functions of a cell have, so that the matrix
+   * may be singular. Collective. */
+  template <int dim>
+  std::vector<std::string>
+  doubts_about_points(const GridParameters      &parameters,
+                      const MaterialPoints<dim> &points,
+                      const Basis<dim>          &basis);
+
   /** Share of a boundary's area whose particles are in no active cell.
    * Collective. */
   template <int dim>

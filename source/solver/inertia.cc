@@ -124,6 +124,7 @@ namespace Impoint
   template <int dim>
   void Inertia<dim>::project(const ActiveNodes<dim>    &active,
                              const MaterialPoints<dim> &points,
+                             const GhostPenalty<dim>   &ghost_penalty,
                              const double               time_step)
   {
     dt = time_step;
@@ -142,7 +143,8 @@ namespace Impoint
         Vector means(*vector);
         divide_by_mass(means);
         if (projects_consistently)
-          divide_by_consistent_mass(active, points, means, *vector);
+          ConsistentNodalMass<dim>(active, points, ghost_penalty)
+            .divide(*vector, means);
         else
           vector->swap(means);
       }
@@ -157,6 +159,7 @@ namespace Impoint
   template <int dim>
   bool Inertia<dim>::begin_step(const ActiveNodes<dim>    &active,
                                 const MaterialPoints<dim> &points,
+                                const GhostPenalty<dim>   &ghost_penalty,
                                 const double               time_step)
   {
     dt = time_step;
@@ -167,7 +170,7 @@ namespace Impoint
         take_layout(active.scalars(), masses);
         return false;
       }
-    project(active, points, time_step);
+    project(active, points, ghost_penalty, time_step);
     return true;
   }
 

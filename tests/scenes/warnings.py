@@ -79,6 +79,11 @@ def main():
                    "'Particles per segment = 2', few for a basis 'cubic spline'. Set 4",
                    BAR, few)
     expect("Warning" not in said_by(BAR, few[:1]), "the default serves")
+    expect_warning("few points for a quadratic basis",
+                   "23 of 23 cells that bodies fill have fewer points than a "
+                   "'quadratic' basis needs (5)", BAR,
+                   ["Grid/Basis = quadratic",
+                    "Bodies/bar/Mesh/Arguments = 8, 2 : 0, 0 : 2, 0.5"])
     lost = "50 % of boundary 'load' have no material in their cells"
     expect_warning("a load beside the material", lost, BAR,
                    [*LOAD, "Grid/Arguments = 14, 3 : 0, 0 : 3.5, 0.75",

@@ -80,7 +80,7 @@ namespace Impoint
       constexpr double smallest_that_serves = 1e-3;
       if (ghost_penalty >= 0)
         return ghost_penalty;
-      return basis == "quadratic" ? smallest_that_serves : 0.;
+      return degree() > 1 ? smallest_that_serves : 0.;
     }
 
     std::string reset = "every step"; // every step|never

@@ -46,6 +46,10 @@ namespace Impoint
     {
       ghost_penalty.set_factor(factor);
     }
+    const GhostPenalty<dim> &ghosts() const
+    {
+      return ghost_penalty;
+    }
 
     /** What reaches beyond a cell in a step from @p start to @p end, of the
      * cells that are active now. Collective. */

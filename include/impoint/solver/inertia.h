@@ -4,6 +4,7 @@
 #include <impoint/grid/active_nodes.h>
 #include <impoint/particles/material_points.h>
 #include <impoint/solver/time_parameters.h>
+#include <impoint/terms/ghost_penalty.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
 
@@ -24,9 +25,11 @@ namespace Impoint
 
     explicit Inertia(const TimeParameters &parameters);
 
-    /** Projects the points' mass, momentum and inertia force. Collective. */
+    /** Projects the points' mass, momentum and inertia force; a consistent
+     * projection asks for the mass of @p ghost_penalty, too. Collective. */
     void project(const ActiveNodes<dim>    &active,
                  const MaterialPoints<dim> &points,
+                 const GhostPenalty<dim>   &ghost_penalty,
                  const double               time_step);
 
     /** Projects before the first step of a kept grid only: later ones find
@@ -34,6 +37,7 @@ namespace Impoint
      * Collective. */
     bool begin_step(const ActiveNodes<dim>    &active,
                     const MaterialPoints<dim> &points,
+                    const GhostPenalty<dim>   &ghost_penalty,
                     const double               time_step);
 
     /** Velocity and acceleration of the nodes after a step with displacements

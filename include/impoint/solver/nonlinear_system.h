@@ -40,6 +40,10 @@ namespace Impoint
     {
       assembly.set_ghost_penalty(factor);
     }
+    const GhostPenalty<dim> &ghosts() const
+    {
+      return assembly.ghosts();
+    }
     Links find_links(const double start, const double end)
     {
       return assembly.find_links(start, end);

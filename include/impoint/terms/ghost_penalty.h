@@ -90,6 +90,19 @@ namespace Impoint
                   const double       alpha,
                   CellSystem        &system) const;
 
+    /** Calls function(entries, nodes, density) for each link that has a mass:
+     * density entries[a n + b] between its nodes a and b, for all components.
+     */
+    template <typename Function>
+    void for_masses(const Function &function) const
+    {
+      for (unsigned int l = 0; l < faces.size(); ++l)
+        if (faces[l].density > 0)
+          function(faces[l].matrix.data(),
+                   active.nodes(group(l)),
+                   faces[l].density);
+    }
+
   private:
     /** What an active cell holds. */
     struct Content
