@@ -282,7 +282,7 @@ namespace Impoint
     face.second   = n;
     face.at_empty = std::min(one.filled, other.filled) == 0;
     face.stiffness =
-      (factor == 0. && face.at_empty ? factor_of_empty : factor) *
+      (face.at_empty ? std::max(factor, factor_of_empty) : factor) *
       lower(one.young, other.young) / (h * h);
     face.density = factor * lower(one.density, other.density);
     return face;
