@@ -3,9 +3,7 @@
 #include <impoint/base/on_all_ranks.h>
 #include <impoint/base/parameter_file.h>
 #include <impoint/base/scoped_seconds.h>
-#include <impoint/particles/stored_particles.h>
 #include <impoint/simulation.h>
-#include <impoint/solver/stored_nodes.h>
 
 #include <map>
 
@@ -61,25 +59,30 @@ namespace Impoint
     archive &stored;
     if (archive.reads())
       check_agreement(file, stored);
-    archive &time &last_step &step_size.size &step_size.n_good;
-    archive                                  &inertia.largest_energy();
+    archive &step_size.size &step_size.n_good;
+    stepper.save_or_load(archive);
     for (std::size_t *count : counters.all())
       archive &*count;
     for (double *phase : seconds.all())
       archive &*phase;
-    for (const auto &measurement : measurements)
-      measurement->save_or_load(archive);
-    pictures.save_or_load(archive);
-    archive &run_record.warnings &pictured_step &told_of_lost_load;
+    report.save_or_load(archive);
   }
 
 
 
-  /** Whether the last step had inertia: not before the first one that has. */
+  /** Writes a checkpoint if one is due; sets @p stop if any rank was told to
+   * stop, which writes one later. Collective. */
   template <int dim>
-  bool Simulation<dim>::has_moved() const
+  void Simulation<dim>::checkpoint(bool &stop)
   {
-    return counters.steps > 0 && scene.time.moves_after(time - last_step);
+    const int told =
+      Utilities::MPI::max(stop ? 2 : int(checkpoints.clock_asks()), comm);
+    stop = told == 2;
+    checkpoints.end_step(told == 1);
+    if (checkpoints.solver_starts_anew())
+      stepper.start_solver_anew();
+    if (checkpoints.is_due())
+      write_checkpoint();
   }
 
 
@@ -92,23 +95,12 @@ namespace Impoint
     StateArchive of_run, particles;
     if (Utilities::MPI::this_mpi_process(comm) == 0)
       save_or_load(of_run);
-    store_particles(*points, grid, particles);
-    for (const auto &method : methods)
-      {
-        particles.tag(method->particles().name());
-        store_particles(method->particles(), grid, particles);
-      }
-    if (scene.grid.is_kept() && counters.steps > 0)
-      store_nodes(active, kept_u, particles);
-    if (scene.grid.is_kept() && has_moved())
-      for (Vector *vector : inertia.carried())
-        store_nodes(active, *vector, particles);
+    stepper.store(particles);
     Impoint::write_checkpoint(folder,
                               counters.steps,
                               of_run.bytes(),
                               particles.bytes());
-    stored_step     = counters.steps;
-    last_checkpoint = std::chrono::steady_clock::now();
+    checkpoints.stored();
   }
 
 
@@ -119,35 +111,12 @@ namespace Impoint
     StateArchive of_run(std::move(stored.run));
     on_all_ranks(comm, [&]() { save_or_load(of_run); });
     for (const auto &file_name : stored.damaged)
-      warn("The checkpoint '" + file_name +
-           "' is damaged: going on from an older one.");
-    earlier_seconds          = seconds.total;
-    linear_iterations_before = counters.linear_iterations;
-    patterns_before          = counters.patterns;
-    residuals_before         = counters.residuals;
-    stored_step              = counters.steps;
-
-    const OwnCells cells = own_cells(grid);
-    restore_particles(stored.particles, cells, comm, *points);
-    for (const auto &method : methods)
-      {
-        stored.particles.for_each([&](StateArchive &archive) {
-          archive.tag(method->particles().name());
-        });
-        restore_particles(stored.particles, cells, comm, method->particles());
-      }
-    if (scene.grid.is_kept() && counters.steps > 0)
-      {
-        activate(time, time + step_size.size);
-        restore_nodes(stored.particles, cells, active, kept_u);
-      }
-    if (scene.grid.is_kept() && has_moved())
-      {
-        inertia.project(active, *points, system->ghosts(), step_size.size);
-        for (Vector *vector : inertia.carried())
-          restore_nodes(stored.particles, cells, active, *vector);
-        inertia.set_carried();
-      }
+      report.warn("The checkpoint '" + file_name +
+                  "' is damaged: going on from an older one.");
+    stepper.restore(stored.particles, step_size.size);
+    checkpoints.stored();
+    earlier_seconds = seconds.total;
+    patterns_before = counters.patterns;
   }
 
 

@@ -1,11 +1,8 @@
 #include <impoint/base/on_all_ranks.h>
-#include <impoint/base/parameter_file.h>
 #include <impoint/base/scoped_seconds.h>
-#include <impoint/output/summary.h>
 #include <impoint/simulation.h>
 
 #include <algorithm>
-#include <limits>
 #include <sstream>
 
 namespace Impoint
@@ -43,7 +40,7 @@ namespace Impoint
     const bool stopped = dynamic_cast<const RunStopped *>(&failure);
     const bool said    = dynamic_cast<const RunFailed *>(&failure);
     if (!stopped)
-      u.reinit(0); // of a step that failed
+      stepper.forget_displacements(); // of a step that failed
     try
       {
         keep_last_good_state();
@@ -52,7 +49,7 @@ namespace Impoint
       }
     catch (const RunFailed &further)
       {
-        terminal.warning(further.what());
+        report.terminal().warning(further.what());
       }
   }
 
@@ -67,23 +64,22 @@ namespace Impoint
         folder.create();
         folder.write("parameters.prm", used_parameters);
       }
-    history.begin(columns, counters.steps);
-    activate(time, time + step_size.size);
+    report.open();
+    stepper.activate(step_size.size);
     // A run that had come to its end counts no pattern of a step that follows.
-    if (resumed && scene.time.is_over(time))
+    if (resumed && scene.time.is_over(stepper.time()))
       counters.patterns = patterns_before;
     ScopedSeconds timer(seconds.output);
-    fill_record();
-    terminal.header(run_record);
+    report.header(stepper.state(), stepper.solver_description());
     if (resumed)
       {
         std::ostringstream text;
-        text << "goes on after step " << counters.steps << " at time " << time
-             << " s";
-        terminal.message(text.str());
+        text << "goes on after step " << counters.steps << " at time "
+             << stepper.time() << " s";
+        report.terminal().message(text.str());
       }
     else
-      picture();
+      report.picture(stepper.state(), stepper.displacements());
   }
 
 
@@ -105,8 +101,9 @@ namespace Impoint
   {
     const double given = scene.time.step;
     const double end   = scene.time.end;
-    while (!scene.time.is_over(time))
+    while (!scene.time.is_over(stepper.time()))
       {
+        const double time = stepper.time();
         // The last one ends at the end; what is left by round-off is no step.
         const bool   rests = scene.time.rests_after(time);
         const double left  = (rests ? scene.time.dynamic_from : end) - time;
@@ -114,13 +111,14 @@ namespace Impoint
           left < step_size.size * (1. + 1e-9) ? left : step_size.size;
         try
           {
-            advance(now);
+            stepper.advance(now, report);
           }
         catch (const StepFailed &failure)
           {
-            if (!is_whole) // amid an update: there is nothing to repeat
+            if (!stepper
+                   .is_whole()) // amid an update: there is nothing to repeat
               throw RunFailed(failure.what());
-            u.reinit(0);
+            stepper.forget_displacements();
             halve(now, failure);
             if (Utilities::MPI::max(int(signals.arrived()), comm))
               throw told_to_stop();
@@ -131,7 +129,7 @@ namespace Impoint
 
         bool stop = signals.arrived();
         checkpoint(stop);
-        if (stop && !scene.time.is_over(time))
+        if (stop && !scene.time.is_over(stepper.time()))
           throw told_to_stop();
       }
   }
@@ -143,65 +141,23 @@ namespace Impoint
   {
     std::string reason = failure.what();
     reason.erase(reason.find_last_not_of(". ") + 1);
-    const std::string text = of_step(failed) + reason;
+    const std::string text = stepper.of_step(failed) + reason;
     if (constant_load)
       throw RunFailed(text +
                       ". Smaller steps would not help: no load depends on t. "
                       "Let it grow with time, e.g. Body force = 0; -9.81 * t");
     ++counters.halved_steps;
-    stored_step.reset(); // with another size of the next step
+    checkpoints.outdate(); // with another size of the next step
     step_size = {0.5 * failed, 0};
     if (step_size.size < scene.time.smallest * scene.time.step ||
-        time + step_size.size == time)
+        stepper.time() + step_size.size == stepper.time())
       {
         step_size = {scene.time.step, 0}; // of a run that goes on from here
         throw RunFailed(text +
                         ". Steps were halved down to the smallest ('Smallest "
                         "step' in section 'Time')");
       }
-    terminal.detail(text + "; halved");
-  }
-
-
-
-  /** What a message on the next step, of length @p dt, begins with. */
-  template <int dim>
-  std::string Simulation<dim>::of_step(const double dt) const
-  {
-    std::ostringstream text;
-    text << "step " << counters.steps + 1 << " at time " << time
-         << " s with a step of " << dt << " s: ";
-    return text.str();
-  }
-
-
-
-  /** Writes a checkpoint if one is due; sets @p stop if any rank was told to
-   * stop. A resumed run has no factor of earlier steps. That it goes on with
-   * the same digits, the running one forgets its own there, too: at steps that
-   * its course alone decides on, not the clock. What the clock asks for is
-   * written at the next of these. Collective. */
-  template <int dim>
-  void Simulation<dim>::checkpoint(bool &stop)
-  {
-    constexpr std::size_t enough  = 100; // a new factor costs little beside
-    const auto           &output  = scene.output;
-    const double          minutes = seconds_since(last_checkpoint) / 60.;
-    const int             in_time = minutes >= output.checkpoint_minutes;
-    // A run that stops writes one anyway.
-    const int told = Utilities::MPI::max(stop ? 2 : in_time, comm);
-    stop           = told == 2;
-
-    const bool by_steps = output.checkpoint_every > 0 &&
-                          counters.steps % output.checkpoint_every == 0;
-    solver_starts_anew =
-      by_steps || (output.checkpoint_minutes > 0 &&
-                   counters.residuals - residuals_before >= enough);
-    if (!solver_starts_anew)
-      return;
-    residuals_before = counters.residuals;
-    if (by_steps || told == 1)
-      write_checkpoint();
+    report.terminal().detail(text + "; halved");
   }
 
 
@@ -214,16 +170,15 @@ namespace Impoint
   {
     try
       {
-        if (!is_whole)
+        if (!stepper.is_whole())
           return;
-        if (stored_step != counters.steps)
+        if (!checkpoints.is_stored())
           write_checkpoint();
-        if (pictured_step != counters.steps)
-          picture();
+        report.picture_if_missing(stepper.state(), stepper.displacements());
       }
     catch (const RunFailed &failure)
       {
-        warn(failure.what());
+        report.warn(failure.what());
       }
   }
 
@@ -234,25 +189,10 @@ namespace Impoint
                             const std::string &message)
   {
     seconds.total = earlier_seconds + seconds_since(start_of_run);
-    fill_record();
-    run_record.status  = status;
-    run_record.message = message;
-    run_record.results.clear();
-    // Before the first step nothing has been measured.
-    if (counters.steps > 0)
-      for (const auto &measurement : measurements)
-        measurement->results(run_record.results);
-    const auto none = std::numeric_limits<double>::quiet_NaN();
-    for (auto &result : run_record.results)
-      {
-        if (!result.warning.empty())
-          warn(result.warning);
-        // References are those of the end.
-        if (status != "done")
-          result.reference = none;
-      }
-    write_summary(run_record, folder);
-    terminal.finish(run_record, folder.path());
+    report.finish(stepper.state(),
+                  stepper.solver_description(),
+                  status,
+                  message);
   }
 
 
