@@ -3,7 +3,7 @@
 
 #include <deal.II/base/exceptions.h>
 
-#include <suitesparse/cholmod.h>
+#include <cholmod.h>
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 
 #include <deal.II/base/exceptions.h>
 
-#include <suitesparse/umfpack.h>
+#include <umfpack.h>
 
 #include <string>
 
