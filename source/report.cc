@@ -250,7 +250,7 @@ namespace Impoint
                                          !scene.has_particles(i) ?
                                            "conforming" :
                                            (scene.conditions[i].constraint ==
-                                                "traction" ?
+                                                Constraint::traction ?
                                               "traction" :
                                               scene.conditions[i].enforcement));
     run_record.solver      = solver;
@@ -268,8 +268,8 @@ namespace Impoint
       {
         const auto &method    = *state.methods[m];
         const auto &condition = method.parameters();
-        if (condition.constraint != "traction" || told_of_lost_load[m] ||
-            !method.is_active())
+        if (condition.constraint != Constraint::traction ||
+            told_of_lost_load[m] || !method.is_active())
           continue;
         const double share = inactive_share(method.particles(), state.active);
         if (share == 0)

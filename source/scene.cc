@@ -137,8 +137,9 @@ namespace Impoint
         for (const std::string entry :
              {"Initial velocity", "Initial acceleration"})
           if (file.is_set(body.section + "/" + entry) &&
-              (!time.is_dynamic() || (entry == "Initial acceleration" &&
-                                      time.initial != "expression")))
+              (!time.is_dynamic() ||
+               (entry == "Initial acceleration" &&
+                time.initial != InitialAcceleration::expression)))
             throw file.error(body.section + "/" + entry,
                              "'" + entry +
                                "' is set though section 'Time' has "
@@ -162,7 +163,7 @@ namespace Impoint
     for (unsigned int i = 0; i < boundaries.size(); ++i)
       {
         boundaries[i].check(file, dim);
-        conditions[i].check(file, dim, boundaries[i].kind == "conforming");
+        conditions[i].check(file, dim, boundaries[i].conforming);
         check_effect(file, conditions[i]);
       }
     time.check(file);
@@ -215,7 +216,8 @@ namespace Impoint
                                 const ConditionParameters &condition) const
   {
     const std::string traction = condition.section + "/Traction";
-    if (condition.constraint == "traction" && file.value(traction).empty())
+    if (condition.constraint == Constraint::traction &&
+        file.value(traction).empty())
       throw file.error(traction,
                        "boundary '" + condition.name + "' has no traction",
                        "Set the load per area, e.g. Traction = " +
@@ -244,7 +246,7 @@ namespace Impoint
   {
     bool held = time.moves_after(0);
     for (const auto &condition : conditions)
-      held |= condition.constraint != "traction";
+      held |= condition.constraint != Constraint::traction;
     if (!held)
       throw file.error("Boundaries/Names",
                        "nothing holds the bodies of a quasi-static scene",
@@ -270,21 +272,21 @@ namespace Impoint
                          ", or take the entry away.");
     };
     for (const auto &body : bodies)
-      if (body.points == "clipped")
+      if (body.clipped)
         doubt("Body '" + body.name + "'",
               "Points per direction",
               body.rule,
               grid.basis == "quadratic" ? wanted : grid.degree());
     for (const auto &boundary : boundaries)
-      if (boundary.kind == "nonconforming" && boundary.rule == "cut")
+      if (!boundary.conforming && boundary.rule == BoundaryRule::cut)
         doubt("Boundary '" + boundary.name + "'",
               "Particles per segment",
               boundary.particles_per_segment,
               wanted);
-    for (const auto &[entry, value] :
-         {std::pair<std::string, std::string>("Mass", time.mass),
-          {"Projection", time.projection}})
-      if (value == "consistent" && !grid.is_kept())
+    for (const auto &[entry, consistent] :
+         {std::pair<std::string, bool>("Mass", time.consistent_mass),
+          {"Projection", time.consistent_projection}})
+      if (consistent && !grid.is_kept())
         doubts.push_back(
           "'" + entry +
           " = consistent' on a grid that is reset: where points "

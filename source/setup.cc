@@ -102,7 +102,7 @@ namespace Impoint
       if (carried.dynamic)
         {
           put(slots.v, initial.velocity.vector(seed.x, 0.));
-          if (scene.time.initial == "expression")
+          if (scene.time.initial == InitialAcceleration::expression)
             put(slots.a, initial.acceleration.vector(seed.x, 0.));
         }
       if (carried.n_history > 0)
@@ -292,7 +292,7 @@ namespace Impoint
           carried.initial_stress = points.carried().initial_stress;
           carried.n_history      = points.carried().n_history;
           if (carried.material && carried.n_history > 0 &&
-              scene.conditions[i].nitsche_form == "symmetric")
+              scene.conditions[i].nitsche_form == NitscheForm::symmetric)
             throw file.error(
               scene.boundaries[i].section + "/Nitsche form",
               "the symmetric form of Nitsche's method holds a plastic "

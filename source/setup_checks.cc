@@ -204,7 +204,7 @@ namespace Impoint
       file, parameters, condition, judge_normals(particles, points, grid));
     if (!normals.empty())
       doubts.push_back(normals);
-    if (parameters.kind == "conforming")
+    if (parameters.conforming)
       return doubts;
 
     // Below this a boundary merely ends on the grid's own border.

@@ -37,7 +37,7 @@ namespace Impoint
     for (const auto &body : scene.bodies)
       body_loads.push_back(
         {Expression<dim>(file, body.section + "/Body force", dim),
-         body.force_place == "start"});
+         body.force_at_start});
     for (unsigned int i = 0; i < scene.boundaries.size(); ++i)
       if (!scene.has_particles(i))
         conforming.add_boundary(file, scene.conditions[i], scene.boundaries[i]);
@@ -144,8 +144,9 @@ namespace Impoint
   {
     const bool forces_wanted =
       counters.steps == 0 && observer.wants_first_forces();
-    const bool accelerates = scene.time.moves_after(now) && !has_moved() &&
-                             scene.time.initial == "equilibrium";
+    const bool accelerates =
+      scene.time.moves_after(now) && !has_moved() &&
+      scene.time.initial == InitialAcceleration::equilibrium;
     if (!forces_wanted && !accelerates)
       return;
     begin_step(dt, now);

@@ -47,8 +47,8 @@ namespace Impoint
      * it holds. */
     bool has_particles(const unsigned int i) const
     {
-      return boundaries[i].kind == "nonconforming" ||
-             conditions[i].constraint == "traction";
+      return !boundaries[i].conforming ||
+             conditions[i].constraint == Constraint::traction;
     }
 
     /** What is allowed but doubtful, for a person to judge. */

@@ -16,7 +16,7 @@ namespace Impoint
 
   bool ConditionParameters::carries_material() const
   {
-    return constraint != "traction" &&
+    return constraint != Constraint::traction &&
            Enforcement::kind(enforcement).traction == TractionFrom::material;
   }
 
@@ -25,9 +25,10 @@ namespace Impoint
   bool ConditionParameters::is_two_sided() const
   {
     const auto from_what = Enforcement::kind(enforcement).traction;
-    return constraint == "traction" ||
-           (constraint == "fixed" && (from_what == TractionFrom::gap ||
-                                      from_what == TractionFrom::multipliers));
+    return constraint == Constraint::traction ||
+           (constraint == Constraint::fixed &&
+            (from_what == TractionFrom::gap ||
+             from_what == TractionFrom::multipliers));
   }
 
 
@@ -46,12 +47,15 @@ namespace Impoint
         names.push_back(row.name);
         helps.push_back(row.name + ": " + row.help);
       }
-    prm.add_parameter("Constraint",
-                      constraint,
-                      "fixed: the whole displacement is prescribed; slip: its "
-                      "normal part; roller: the listed components (conforming "
-                      "only); traction: a load instead of a displacement.",
-                      Patterns::Selection("fixed|slip|roller|traction"));
+    prm.add_choice("Constraint",
+                   constraint,
+                   "fixed: the whole displacement is prescribed; slip: its "
+                   "normal part; roller: the listed components (conforming "
+                   "only); traction: a load instead of a displacement.",
+                   {{"fixed", Constraint::fixed},
+                    {"slip", Constraint::slip},
+                    {"roller", Constraint::roller},
+                    {"traction", Constraint::traction}});
     prm.add_parameter("Components",
                       components,
                       "Components that a roller holds: x, y, z, separated by "
@@ -63,14 +67,16 @@ namespace Impoint
                         Words::join(helps, "; ") + ".",
                       Patterns::Selection(Words::join(names, "|")));
     declare_factors(prm);
-    prm.add_parameter(
+    prm.add_choice(
       "Normals",
       normals,
       "Normals of a slip condition: each particle's own, or "
       "averaged at the nodes (P Eq. 54); automatic: nodal where "
       "the particles' normals differ, but particle where a cell has one mean "
       "gap of its own ('projected penalty', multipliers that are not shared).",
-      Patterns::Selection("automatic|particle|nodal"));
+      {{"automatic", Normals::automatic},
+       {"particle", Normals::particle},
+       {"nodal", Normals::nodal}});
     prm.add_parameter(
       "Releasing",
       releasing,
@@ -96,13 +102,12 @@ namespace Impoint
                       factor,
                       "Penalty factor beta, in the unit below.",
                       Patterns::Double(1e-300));
-    prm.add_parameter(
-      "Penalty unit",
-      factor_unit,
-      "E/h: beta is a multiple of Young's modulus over the cell "
-      "size (largest of all bodies); Pa/m: beta is absolute.",
-      Patterns::Selection("E/h|Pa/m"));
-    prm.add_parameter(
+    prm.add_choice("Penalty unit",
+                   factor_is_absolute,
+                   "E/h: beta is a multiple of Young's modulus over the cell "
+                   "size (largest of all bodies); Pa/m: beta is absolute.",
+                   {{"E/h", false}, {"Pa/m", true}});
+    prm.add_choice(
       "Superfluous constraints",
       superfluous,
       "Multipliers of more cells than displacements can follow oscillate: keep "
@@ -113,7 +118,11 @@ namespace Impoint
       "means. automatic: share by 'lagrange multiplier' and 'augmented "
       "Lagrangian', and by 'implicit boundary' where it is not along faces or "
       "directions of the cell; else keep.",
-      Patterns::Selection("automatic|keep|remove|share|stabilise"));
+      {{"automatic", Superfluous::automatic},
+       {"keep", Superfluous::keep},
+       {"remove", Superfluous::remove},
+       {"share", Superfluous::share},
+       {"stabilise", Superfluous::stabilise}});
     prm.add_parameter("Jump penalty",
                       jump_penalty,
                       "Of stabilised multipliers: compliance of the jump "
@@ -130,16 +139,18 @@ namespace Impoint
                       "most the width of the material in the cell. 0: 10, 20, "
                       "45 for functions of degree 1, 2, 3.",
                       Patterns::Double(0));
-    prm.add_parameter("Nitsche form",
-                      nitsche_form,
-                      "symmetric: the forces have a potential; non-symmetric: "
-                      "bears any factor, but is less accurate and needs an "
-                      "unsymmetric solver; incomplete: without the terms that "
-                      "weigh the gap by the material's tangent, which jumps "
-                      "where material yields. automatic: incomplete if a "
-                      "material is plastic, else symmetric.",
-                      Patterns::Selection(
-                        "automatic|symmetric|non-symmetric|incomplete"));
+    prm.add_choice("Nitsche form",
+                   nitsche_form,
+                   "symmetric: the forces have a potential; non-symmetric: "
+                   "bears any factor, but is less accurate and needs an "
+                   "unsymmetric solver; incomplete: without the terms that "
+                   "weigh the gap by the material's tangent, which jumps "
+                   "where material yields. automatic: incomplete if a "
+                   "material is plastic, else symmetric.",
+                   {{"automatic", NitscheForm::automatic},
+                    {"symmetric", NitscheForm::symmetric},
+                    {"non-symmetric", NitscheForm::non_symmetric},
+                    {"incomplete", NitscheForm::incomplete}});
     prm.add_parameter(
       "Small-cut rule",
       small_cut_rule,
@@ -162,10 +173,10 @@ namespace Impoint
       "is taken off) or velocity [m/s]: expressions of x, y, "
       "(z,) t separated by ';', of the place at the start of "
       "the run; empty: none.");
-    prm.add_parameter("Value is",
-                      value_kind,
-                      "What 'Value' means.",
-                      Patterns::Selection("displacement|velocity"));
+    prm.add_choice("Value is",
+                   value_is_velocity,
+                   "What 'Value' means.",
+                   {{"displacement", false}, {"velocity", true}});
     prm.declare_entry("Rotation angle",
                       "",
                       Patterns::Anything(),
@@ -179,14 +190,17 @@ namespace Impoint
                       rotation_axis,
                       "3D: direction of the axis of rotation.",
                       Patterns::List(Patterns::Double(), 0, 3));
-    prm.add_parameter(
+    prm.add_choice(
       "Moves",
       motion,
       "How the particles move: with the value that they "
       "prescribe, with the material that they hold, or not; "
       "automatic: a traction and a flat slip boundary by 'nitsche' with the "
       "material, others with the value.",
-      Patterns::Selection("automatic|with the value|with the material|not"));
+      {{"automatic", Moves::automatic},
+       {"with the value", Moves::with_value},
+       {"with the material", Moves::with_material},
+       {"not", Moves::never}});
     prm.declare_entry("Traction",
                       "",
                       Patterns::Anything(),
@@ -213,19 +227,22 @@ namespace Impoint
                            const std::string &advice) {
       throw file.error(section + "/" + entry, wrong, advice);
     };
-    if (constraint == "roller" && !conforming)
+    if (constraint == Constraint::roller && !conforming)
       clash("Constraint",
             "a nonconforming boundary cannot be a 'roller'",
             "Use 'slip', which holds the component along the normal.");
-    if (constraint == "roller" && components.empty())
+    if (constraint == Constraint::roller && components.empty())
       clash("Components",
             "a roller holds no component",
             "Set Components = x (or y, z).");
     check_unused(file, conforming);
-    if (enforcement == "implicit boundary" &&
-        (superfluous == "remove" || superfluous == "stabilise"))
+    if (Enforcement::kind(enforcement).traction == TractionFrom::functions &&
+        (superfluous == Superfluous::remove ||
+         superfluous == Superfluous::stabilise))
       clash("Superfluous constraints",
-            "an implicit boundary cannot '" + superfluous + "' constraints",
+            "an implicit boundary cannot '" +
+              file.value(section + "/Superfluous constraints") +
+              "' constraints",
             "Set 'share', 'keep' (the gap of each particle, as in paper I) or "
             "'automatic'.");
     if (until <= from)
@@ -254,12 +271,13 @@ namespace Impoint
   void ConditionParameters::check_unused(const ParameterFile &file,
                                          const bool           conforming) const
   {
-    const bool        traction = constraint == "traction";
+    const bool        traction = constraint == Constraint::traction;
     const bool        turns    = file.is_set(section + "/Rotation angle");
-    const std::string kind     = conforming ?
-                                   "the boundary is conforming" :
-                                   "the constraint is '" + constraint + "'";
-    const auto        refuse   = [&](const bool                      unused,
+    const std::string kind =
+      conforming ?
+        "the boundary is conforming" :
+        "the constraint is '" + file.value(section + "/Constraint") + "'";
+    const auto refuse = [&](const bool                      unused,
                             const std::vector<std::string> &entries,
                             const std::string              &reason) {
       for (const std::string &entry : entries)
@@ -268,7 +286,7 @@ namespace Impoint
                            "'" + entry + "' is set though " + reason,
                            "Remove the entry: it would have no effect.");
     };
-    refuse(constraint != "roller", {"Components"}, kind);
+    refuse(constraint != Constraint::roller, {"Components"}, kind);
     refuse(!traction, {"Traction"}, kind);
     refuse(traction, {"Value", "Rotation angle"}, kind);
     refuse(conforming || traction,
@@ -285,16 +303,18 @@ namespace Impoint
     // What only another enforcement looks at stays: the enforcement of a scene
     // is changed in one line.
     refuse(conforming || traction, {"Releasing"}, kind);
-    refuse(constraint != "slip" || conforming, {"Friction coefficient"}, kind);
+    refuse(constraint != Constraint::slip || conforming,
+           {"Friction coefficient"},
+           kind);
     const auto from_what = Enforcement::kind(enforcement).traction;
     refuse(from_what == TractionFrom::functions ||
              from_what == TractionFrom::material,
            {"Releasing", "Friction coefficient"},
            "'Enforcement' is '" + enforcement + "', which always holds");
-    refuse(superfluous != "stabilise",
+    refuse(superfluous != Superfluous::stabilise,
            {"Jump penalty"},
            "'Superfluous constraints' is not 'stabilise'");
-    refuse(constraint != "slip" || conforming, {"Normals"}, kind);
+    refuse(constraint != Constraint::slip || conforming, {"Normals"}, kind);
     refuse(conforming, {"Moves", "Rotation angle"}, kind);
     refuse(!turns,
            {"Rotation centre", "Rotation axis"},
@@ -309,7 +329,7 @@ namespace Impoint
                                           const ConditionParameters &parameters)
     : value(file, parameters.section + "/Value", dim)
     , angle(file, parameters.section + "/Rotation angle", 1)
-    , is_velocity(parameters.value_kind == "velocity")
+    , is_velocity(parameters.value_is_velocity)
   {
     for (unsigned int d = 0; d < parameters.rotation_centre.size(); ++d)
       centre[d] = parameters.rotation_centre[d];

@@ -105,8 +105,8 @@ namespace Impoint
                                HeldNode<dim>        &node) const
     {
       const Boundary &boundary = boundaries[boundary_number];
-      const bool      slip     = boundary.parameters.constraint == "slip";
-      const bool      fixed    = boundary.parameters.constraint == "fixed";
+      const bool      slip = boundary.parameters.constraint == Constraint::slip;
+      const bool fixed = boundary.parameters.constraint == Constraint::fixed;
       if (slip)
         node.hold(normal, value * normal / normal.norm(), boundary_number);
       for (unsigned int d = 0; d < dim && !slip; ++d)

@@ -17,12 +17,12 @@ namespace Impoint
       , motion(std::move(motion))
       , boundary(std::move(particles))
     {
-      if (condition.motion == "automatic")
-        condition.motion =
-          condition.constraint == "traction" ||
-              (condition.constraint == "slip" && condition.carries_material()) ?
-            "with the material" :
-            "with the value";
+      if (condition.motion == Moves::automatic)
+        condition.motion = condition.constraint == Constraint::traction ||
+                               (condition.constraint == Constraint::slip &&
+                                condition.carries_material()) ?
+                             Moves::with_material :
+                             Moves::with_value;
     }
 
 
@@ -129,8 +129,8 @@ namespace Impoint
     template <int dim>
     bool Method<dim>::moves() const
     {
-      return condition.motion == "with the material" ||
-             (condition.motion == "with the value" && !motion.is_zero());
+      return condition.motion == Moves::with_material ||
+             (condition.motion == Moves::with_value && !motion.is_zero());
     }
 
 
@@ -145,9 +145,9 @@ namespace Impoint
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
           places[b] = boundary->position(b);
-          if (condition.motion == "with the value")
+          if (condition.motion == Moves::with_value)
             places[b] += boundary->vector(b, boundary->slots().increment);
-          else if (condition.motion == "with the material" && u != nullptr)
+          else if (condition.motion == Moves::with_material && u != nullptr)
             places[b] += displacement(b, n, u);
         }
     }
@@ -200,7 +200,7 @@ namespace Impoint
            std::unique_ptr<BoundaryParticles<dim>> particles)
     {
       PrescribedMotion<dim> motion(file, parameters);
-      if (parameters.constraint == "traction")
+      if (parameters.constraint == Constraint::traction)
         return std::make_unique<Traction<dim>>(
           parameters,
           std::move(motion),

@@ -14,8 +14,9 @@ namespace Impoint
                               const bool                              projected)
       : Method<dim>(parameters, std::move(motion), std::move(particles))
       , projected(projected)
-      , normal_only(parameters.constraint == "slip" && parameters.friction == 0)
-      , factor_has_unit(parameters.factor_unit == "Pa/m")
+      , normal_only(parameters.constraint == Constraint::slip &&
+                    parameters.friction == 0)
+      , factor_has_unit(parameters.factor_is_absolute)
     {}
 
 
@@ -63,7 +64,7 @@ namespace Impoint
     bool GapMethod<dim>::removes_superfluous() const
     {
       return !this->condition.releasing &&
-             this->condition.superfluous == "remove";
+             this->condition.superfluous == Superfluous::remove;
     }
 
 
@@ -95,7 +96,7 @@ namespace Impoint
     {
       constexpr double firm_grip = 10;
       const auto      &condition = this->condition;
-      if (condition.constraint == "slip")
+      if (condition.constraint == Constraint::slip)
         return normal_only ? -1. : condition.friction;
       return condition.releasing ? firm_grip : -1.;
     }
@@ -133,10 +134,12 @@ namespace Impoint
       // The mean of n . g in a cell is one condition whatever its normals, and
       // a turn about the centre of a circle leaves it zero. One of averaged
       // normals does not, and its force has a moment about that centre.
-      const auto &choice   = this->condition.normals;
-      const bool  one_mean = projected && !shares_constraints();
+      const auto choice   = this->condition.normals;
+      const bool one_mean = projected && !shares_constraints();
       if (normal_only)
-        normals.reinit(one_mean && choice == "automatic" ? "particle" : choice,
+        normals.reinit(one_mean && choice == Normals::automatic ?
+                         Normals::particle :
+                         choice,
                        *this,
                        *step.active);
       if (this->condition.releasing)

@@ -8,7 +8,7 @@ namespace Impoint
     bool GapMethod<dim>::stabilises() const
     {
       return this->condition.has_multipliers() && is_linear() &&
-             this->condition.superfluous == "stabilise";
+             this->condition.superfluous == Superfluous::stabilise;
     }
 
 

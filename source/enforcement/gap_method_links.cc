@@ -22,10 +22,11 @@ namespace Impoint
     template <int dim>
     bool GapMethod<dim>::shares_constraints() const
     {
-      const std::string &choice = this->condition.superfluous;
+      const Superfluous choice = this->condition.superfluous;
       return projected && is_linear() &&
-             (choice == "share" ||
-              (choice == "automatic" && this->condition.has_multipliers()));
+             (choice == Superfluous::share ||
+              (choice == Superfluous::automatic &&
+               this->condition.has_multipliers()));
     }
 
 

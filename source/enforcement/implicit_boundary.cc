@@ -15,7 +15,7 @@ namespace Impoint
       PrescribedMotion<dim>                   motion,
       std::unique_ptr<BoundaryParticles<dim>> particles)
       : Method<dim>(parameters, std::move(motion), std::move(particles))
-      , slip(parameters.constraint == "slip")
+      , slip(parameters.constraint == Constraint::slip)
     {}
 
 
@@ -148,16 +148,17 @@ namespace Impoint
     void ImplicitBoundary<dim>::make_links(const ActiveNodes<dim> &active,
                                            Links                  &links)
     {
-      const std::string &choice = this->condition.superfluous;
-      const auto        &ranges = this->boundary->ranges();
+      const Superfluous choice = this->condition.superfluous;
+      const auto       &ranges = this->boundary->ranges();
       bears_each.assign(ranges.size(), true);
       for_active_ranges(
         *this, active, [&](const unsigned int r, const unsigned int) {
           bears_each[r] =
-            choice == "keep" ||
+            choice == Superfluous::keep ||
             !ConstrainedCells<dim>::nodes_are_vertices(active.basis(),
                                                        ranges[r].cell) ||
-            (choice == "automatic" && bears_each_particle(r, active));
+            (choice == Superfluous::automatic &&
+             bears_each_particle(r, active));
         });
       shared.find_groups(*this->boundary, active, [&](const unsigned int r) {
         return !bears_each[r];

@@ -10,7 +10,7 @@ namespace Impoint
   {
     namespace
     {
-      template <typename Class, int dim>
+      template <typename Class, int dim, auto... options>
       std::unique_ptr<Method<dim>>
       make(const ConditionParameters              &parameters,
            PrescribedMotion<dim>                   motion,
@@ -18,18 +18,22 @@ namespace Impoint
       {
         return std::make_unique<Class>(parameters,
                                        std::move(motion),
-                                       std::move(particles));
+                                       std::move(particles),
+                                       options...);
       }
 
 
 
-      /** The row of a class. */
-      template <template <int> class Class>
+      /** The row of a class, whose constructor takes these options, too. */
+      template <template <int> class Class, auto... options>
       Kind row(const std::string &name,
                const std::string &help,
                const TractionFrom traction)
       {
-        return {name, help, traction, {make<Class<2>, 2>, make<Class<3>, 3>}};
+        return {name,
+                help,
+                traction,
+                {make<Class<2>, 2, options...>, make<Class<3>, 3, options...>}};
       }
     } // namespace
 
@@ -38,18 +42,19 @@ namespace Impoint
     const std::vector<Kind> &kinds()
     {
       static const std::vector<Kind> table = {
-        row<Penalty>("penalty",
-                     "on each particle's gap (P Eqs. 42-43)",
-                     TractionFrom::gap),
-        row<Penalty>("projected penalty",
-                     "on the mean gap of each cell, which does not lock",
-                     TractionFrom::gap),
-        row<LagrangeMultiplier>("lagrange multiplier",
-                                "one for each cell (L)",
-                                TractionFrom::multipliers),
-        row<LagrangeMultiplier>("augmented Lagrangian",
-                                "the same, from a penalty factor of yours",
-                                TractionFrom::multipliers),
+        row<Penalty, false>("penalty",
+                            "on each particle's gap (P Eqs. 42-43)",
+                            TractionFrom::gap),
+        row<Penalty, true>("projected penalty",
+                           "on the mean gap of each cell, which does not lock",
+                           TractionFrom::gap),
+        row<LagrangeMultiplier, false>("lagrange multiplier",
+                                       "one for each cell (L)",
+                                       TractionFrom::multipliers),
+        row<LagrangeMultiplier, true>(
+          "augmented Lagrangian",
+          "the same, from a penalty factor of yours",
+          TractionFrom::multipliers),
         row<ImplicitBoundary>("implicit boundary",
                               "displacements that vanish at the boundary by "
                               "construction (I)",

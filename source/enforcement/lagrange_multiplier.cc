@@ -26,12 +26,13 @@ namespace Impoint
     LagrangeMultiplier<dim>::LagrangeMultiplier(
       const ConditionParameters              &parameters,
       PrescribedMotion<dim>                   motion,
-      std::unique_ptr<BoundaryParticles<dim>> particles)
+      std::unique_ptr<BoundaryParticles<dim>> particles,
+      const bool                              user_chooses_factor)
       : GapMethod<dim>(parameters,
                        std::move(motion),
                        std::move(particles),
                        true)
-      , user_chooses_factor(parameters.enforcement == "augmented Lagrangian")
+      , user_chooses_factor(user_chooses_factor)
     {}
 
 

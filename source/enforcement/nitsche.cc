@@ -16,13 +16,14 @@ namespace Impoint
 
       /** Of the adjoint terms: 0, if they are left out. */
       template <int dim>
-      double sign_of(const std::string            &form,
+      double sign_of(const NitscheForm             form,
                      const BoundaryParticles<dim> &particles)
       {
-        if (form == "incomplete" ||
-            (form == "automatic" && particles.carried().n_history > 0))
+        if (form == NitscheForm::incomplete ||
+            (form == NitscheForm::automatic &&
+             particles.carried().n_history > 0))
           return 0.;
-        return form == "non-symmetric" ? -1. : 1.;
+        return form == NitscheForm::non_symmetric ? -1. : 1.;
       }
     } // namespace
 
@@ -33,8 +34,8 @@ namespace Impoint
                           PrescribedMotion<dim>                   motion,
                           std::unique_ptr<BoundaryParticles<dim>> particles)
       : Method<dim>(parameters, std::move(motion), std::move(particles))
-      , slip(parameters.constraint == "slip")
-      , chooses_motion(parameters.motion == "automatic")
+      , slip(parameters.constraint == Constraint::slip)
+      , chooses_motion(parameters.motion == Moves::automatic)
       , sign(sign_of(parameters.nitsche_form, *this->boundary))
     {}
 
@@ -61,7 +62,7 @@ namespace Impoint
       if (slip && chooses_motion &&
           !one_normal(*this->boundary,
                       step.active->basis().grid().communicator()))
-        this->condition.motion = "with the value";
+        this->condition.motion = Moves::with_value;
       const auto &points = *step.points;
       widths.assign(this->boundary->ranges().size(), 0.);
       for_active_ranges(*this,

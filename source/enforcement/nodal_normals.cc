@@ -37,14 +37,14 @@ namespace Impoint
 
 
     template <int dim>
-    void NodalNormals<dim>::reinit(const std::string      &choice,
+    void NodalNormals<dim>::reinit(const Normals           choice,
                                    const Method<dim>      &method,
                                    const ActiveNodes<dim> &active)
     {
       const auto    &boundary = method.particles();
       const MPI_Comm comm     = active.basis().grid().communicator();
-      averaged                = choice == "nodal" ||
-                 (choice == "automatic" && !one_normal(boundary, comm));
+      averaged                = choice == Normals::nodal ||
+                 (choice == Normals::automatic && !one_normal(boundary, comm));
       if (!averaged)
         return;
 

@@ -18,11 +18,12 @@ namespace Impoint
     template <int dim>
     Penalty<dim>::Penalty(const ConditionParameters              &parameters,
                           PrescribedMotion<dim>                   motion,
-                          std::unique_ptr<BoundaryParticles<dim>> particles)
+                          std::unique_ptr<BoundaryParticles<dim>> particles,
+                          const bool                              projected)
       : GapMethod<dim>(parameters,
                        std::move(motion),
                        std::move(particles),
-                       parameters.enforcement == "projected penalty")
+                       projected)
     {}
 
 

@@ -17,13 +17,12 @@ namespace Impoint
     auto &prm = file.handler();
     prm.enter_subsection("Bodies");
     prm.enter_subsection(name);
-    prm.add_parameter(
-      "Points",
-      points,
-      "'body mesh': at the Gauss points of the cells of the "
-      "body's mesh; 'clipped': of the parts of the grid's cells "
-      "that lie in the body.",
-      Patterns::Selection("body mesh|clipped"));
+    prm.add_choice("Points",
+                   clipped,
+                   "'body mesh': at the Gauss points of the cells of the "
+                   "body's mesh; 'clipped': of the parts of the grid's cells "
+                   "that lie in the body.",
+                   {{"body mesh", false}, {"clipped", true}});
     prm.add_parameter(
       "Points per direction",
       rule,
@@ -39,15 +38,14 @@ namespace Impoint
                         simplex_rule_sizes_text(3) +
                         "); 0: as many as it has corners.",
                       Patterns::Integer(0, 81));
-    prm.add_parameter(
-      "Piece",
-      piece,
-      "Clipped: 'centroid': a point for each clipped sub-cell; "
-      "'gauss': a Gauss rule for each clipped cell. With n points "
-      "a direction it is exact to degree 2 n - 1, and for "
-      "products of polynomials of degree n - 1 in each "
-      "coordinate: a basis of degree p wants n = p + 1.",
-      Patterns::Selection("centroid|gauss"));
+    prm.add_choice("Piece",
+                   gauss_pieces,
+                   "Clipped: 'centroid': a point for each clipped sub-cell; "
+                   "'gauss': a Gauss rule for each clipped cell. With n points "
+                   "a direction it is exact to degree 2 n - 1, and for "
+                   "products of polynomials of degree n - 1 in each "
+                   "coordinate: a basis of degree p wants n = p + 1.",
+                   {{"centroid", false}, {"gauss", true}});
     declare_shape(prm);
     prm.add_parameter("Density",
                       density,
@@ -85,12 +83,12 @@ namespace Impoint
                       "Force per mass, such as gravity: expressions of x, "
                       "y(, z), t, components separated by ';' [m/s2]; empty: "
                       "none.");
-    prm.add_parameter("Body force place",
-                      force_place,
-                      "What x, y(, z) of the body force are of a point: where "
-                      "it is at the start of the step, or where it was at the "
-                      "start of the run.",
-                      Patterns::Selection("now|start"));
+    prm.add_choice("Body force place",
+                   force_at_start,
+                   "What x, y(, z) of the body force are of a point: where "
+                   "it is at the start of the step, or where it was at the "
+                   "start of the run.",
+                   {{"now", false}, {"start", true}});
     prm.declare_entry(
       "Initial stress",
       "",
@@ -121,7 +119,7 @@ namespace Impoint
   void BodyParameters::check_signed_distance(const ParameterFile &file) const
   {
     const std::string path = section + "/Signed distance";
-    if (points != "clipped" || piece != "gauss")
+    if (!clipped || !gauss_pieces)
       throw file.error(path,
                        "a signed distance without Gauss rules in clipped cells",
                        "Set 'Points = clipped' and 'Piece = gauss'.");
@@ -137,7 +135,7 @@ namespace Impoint
   void BodyParameters::complete(const unsigned int degree)
   {
     if (rule == 0)
-      rule = points == "clipped" ? degree + 1 : 2;
+      rule = clipped ? degree + 1 : 2;
   }
 
 
@@ -173,7 +171,7 @@ namespace Impoint
       throw file.error(path,
                        "an outline in 3D",
                        "Give the shape in section '" + section + "/Mesh'.");
-    if (points == "body mesh")
+    if (!clipped)
       throw file.error(
         path,
         "an outline has no mesh to put points into",
@@ -191,7 +189,6 @@ namespace Impoint
   void BodyParameters::check_points(const ParameterFile &file,
                                     const unsigned int   dim) const
   {
-    const bool clipped = points == "clipped";
     if (!clipped && file.is_set(section + "/Piece"))
       throw file.error(section + "/Piece",
                        "the points of a body mesh have no pieces",
@@ -205,7 +202,7 @@ namespace Impoint
                        "no rule has " + std::to_string(points_per_simplex) +
                          " points",
                        "Set one of " + simplex_rule_sizes_text(dim) + ".");
-    if (clipped && piece == "gauss" && rule > max_simplex_order(dim))
+    if (clipped && gauss_pieces && rule > max_simplex_order(dim))
       throw file.error(section + "/Points per direction",
                        "Gauss rules on clipped cells are known up to " +
                          std::to_string(max_simplex_order(dim)) +

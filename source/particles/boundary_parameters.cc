@@ -14,12 +14,11 @@ namespace Impoint
     auto &prm = file.handler();
     prm.enter_subsection("Boundaries");
     prm.enter_subsection(name);
-    prm.add_parameter(
-      "Kind",
-      kind,
-      "'nonconforming': particles on a shape that runs anywhere "
-      "through the grid; 'conforming': sides of the grid.",
-      Patterns::Selection("nonconforming|conforming"));
+    prm.add_choice("Kind",
+                   conforming,
+                   "'nonconforming': particles on a shape that runs anywhere "
+                   "through the grid; 'conforming': sides of the grid.",
+                   {{"nonconforming", false}, {"conforming", true}});
     prm.add_parameter(
       "Boundary id",
       boundary_id,
@@ -46,12 +45,14 @@ namespace Impoint
                       "basis of degree p wants n = p + 1. 0: with 'Rule = cut' "
                       "this, else 2.",
                       Patterns::Integer(0, 1000));
-    prm.add_parameter("Rule",
-                      rule,
-                      "'equal': in the middle of n equal parts; 'gauss': at "
-                      "Gauss points; 'cut': cut at the faces of the grid's "
-                      "cells, then Gauss points on each piece.",
-                      Patterns::Selection("equal|gauss|cut"));
+    prm.add_choice("Rule",
+                   rule,
+                   "'equal': in the middle of n equal parts; 'gauss': at "
+                   "Gauss points; 'cut': cut at the faces of the grid's "
+                   "cells, then Gauss points on each piece.",
+                   {{"equal", BoundaryRule::equal},
+                    {"gauss", BoundaryRule::gauss},
+                    {"cut", BoundaryRule::cut}});
     prm.add_parameter(
       "Flip normal",
       flip_normal,
@@ -68,7 +69,7 @@ namespace Impoint
   {
     if (particles_per_segment == 0)
       particles_per_segment =
-        rule == "cut" || kind == "conforming" ? degree + 1 : 2;
+        rule == BoundaryRule::cut || conforming ? degree + 1 : 2;
   }
 
 
@@ -88,7 +89,7 @@ namespace Impoint
   void BoundaryParameters::check(const ParameterFile &file,
                                  const unsigned int   dim) const
   {
-    if (kind == "conforming")
+    if (conforming)
       return check_conforming(file);
     if (file.is_set(section + "/Boundary id"))
       throw file.error(section + "/Boundary id",
@@ -96,7 +97,7 @@ namespace Impoint
                        "Set 'Kind = conforming', or take the entry away.");
     check_shape(file, dim);
     const unsigned int most = max_simplex_order(2);
-    if (dim == 3 && rule != "equal" && particles_per_segment > most)
+    if (dim == 3 && rule != BoundaryRule::equal && particles_per_segment > most)
       throw file.error(section + "/Particles per segment",
                        "Gauss rules on surfaces are known up to " +
                          std::to_string(most) + ", not " +

@@ -19,13 +19,10 @@ namespace Impoint
 
 
 
-    /** @p rule as in BoundaryParameters. */
-    Quadrature<1> segment_rule(const std::string &rule, const unsigned int n)
+    Quadrature<1> segment_rule(const BoundaryRule rule, const unsigned int n)
     {
-      if (rule == "equal")
+      if (rule == BoundaryRule::equal)
         return QIterated<1>(QMidpoint<1>(), n);
-      AssertThrow(rule == "gauss" || rule == "cut",
-                  ExcMessage("No rule is called '" + rule + "'"));
       return QGauss<1>(n);
     }
 
@@ -38,13 +35,12 @@ namespace Impoint
     public:
       using Particles = std::vector<SeededBoundaryParticle<dim>>;
 
-      /** @p name as in BoundaryParameters. */
-      FacetRule(const std::string &name, const unsigned int n)
+      FacetRule(const BoundaryRule name, const unsigned int n)
         : n(n)
-        , cut(name == "cut")
+        , cut(name == BoundaryRule::cut)
         , line(segment_rule(name, n))
       {
-        const bool gauss = name != "equal";
+        const bool gauss = name != BoundaryRule::equal;
         if (dim == 3 && gauss)
           triangle = simplex_rule_of_order<2>(n);
         else if (dim == 3)
@@ -295,8 +291,8 @@ namespace Impoint
                 const BoundaryParameters  &boundary,
                 const BackgroundGrid<dim> &grid)
   {
-    const bool           sides = boundary.kind == "conforming";
-    const FacetRule<dim> rule(sides ? "gauss" : boundary.rule,
+    const bool           sides = boundary.conforming;
+    const FacetRule<dim> rule(sides ? BoundaryRule::gauss : boundary.rule,
                               boundary.particles_per_segment);
     if (sides)
       {
@@ -306,7 +302,7 @@ namespace Impoint
         return mine;
       }
     const auto facets = make_facets<dim>(file, boundary);
-    const auto mine   = boundary.rule == "cut" ?
+    const auto mine   = boundary.rule == BoundaryRule::cut ?
                           seed_cut(flat_facets(facets), rule, grid) :
                           seed_uncut(facets, rule, grid);
     if (Utilities::MPI::sum(mine.size(), grid.communicator()) == 0)

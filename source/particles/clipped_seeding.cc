@@ -113,7 +113,7 @@ namespace Impoint
 
       CellFiller(const BodyParameters &body, const BackgroundGrid<dim> &grid)
         : grid(grid)
-        , gauss(body.piece == "gauss")
+        , gauss(body.gauss_pieces)
         , n(body.rule)
         , sub_cells(grid.simplicial() ? simplex_sub_cells<dim>(gauss ? 1 : n) :
                                         cube_sub_cells<dim>(gauss ? 1 : n))

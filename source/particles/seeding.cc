@@ -139,8 +139,8 @@ namespace Impoint
   {
     if (!body.signed_distance.empty())
       return seed_signed_distance(file, body, grid);
-    return body.points == "clipped" ? seed_clipped(file, body, grid) :
-                                      seed_body_mesh(file, body, grid);
+    return body.clipped ? seed_clipped(file, body, grid) :
+                          seed_body_mesh(file, body, grid);
   }
 
   template std::vector<SeededPoint<2>> seed_body(const ParameterFile &,

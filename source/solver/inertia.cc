@@ -20,8 +20,8 @@ namespace Impoint
              (parameters.spectral_radius + 1))
     , filter(parameters.filter)
     , filter_at_rest(parameters.filter_at_rest)
-    , is_consistent(parameters.mass == "consistent")
-    , projects_consistently(parameters.projection == "consistent")
+    , is_consistent(parameters.consistent_mass)
+    , projects_consistently(parameters.consistent_projection)
   {
     if (bossak < 0)
       {

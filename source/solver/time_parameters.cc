@@ -7,11 +7,11 @@ namespace Impoint
   {
     auto &prm = file.handler();
     prm.enter_subsection("Time");
-    prm.add_parameter("Kind",
-                      kind,
-                      "quasi-static: load steps without inertia; dynamic: "
-                      "Newmark's method.",
-                      Patterns::Selection("quasi-static|dynamic"));
+    prm.add_choice("Kind",
+                   dynamic,
+                   "quasi-static: load steps without inertia; dynamic: "
+                   "Newmark's method.",
+                   {{"quasi-static", false}, {"dynamic", true}});
     prm.add_parameter("End time",
                       end,
                       "Time at which the run ends [s].",
@@ -63,23 +63,25 @@ namespace Impoint
       "grid gives points in sparse cells unseen velocities for ever; 0: as "
       "'Velocity filter'.",
       Patterns::Double(0));
-    prm.add_parameter("Mass",
-                      mass,
-                      "Mass matrix of the nodes.",
-                      Patterns::Selection("lumped|consistent"));
-    prm.add_parameter(
+    prm.add_choice("Mass",
+                   consistent_mass,
+                   "Mass matrix of the nodes.",
+                   {{"lumped", false}, {"consistent", true}});
+    prm.add_choice(
       "Projection",
-      projection,
+      consistent_projection,
       "Velocities of the nodes at the start of a step; of the run where the "
       "grid is never reset. lumped: means of what the points have, with "
       "positive weights (P Eqs. 18-19), which smooth it; consistent: the least "
       "squares' fit.",
-      Patterns::Selection("lumped|consistent"));
-    prm.add_parameter("Initial acceleration",
-                      initial,
-                      "equilibrium: M a = f at the start; zero; expression: "
-                      "'Initial acceleration' of each body.",
-                      Patterns::Selection("equilibrium|zero|expression"));
+      {{"lumped", false}, {"consistent", true}});
+    prm.add_choice("Initial acceleration",
+                   initial,
+                   "equilibrium: M a = f at the start; zero; expression: "
+                   "'Initial acceleration' of each body.",
+                   {{"equilibrium", InitialAcceleration::equilibrium},
+                    {"zero", InitialAcceleration::zero},
+                    {"expression", InitialAcceleration::expression}});
     prm.leave_subsection();
   }
 

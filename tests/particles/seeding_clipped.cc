@@ -24,7 +24,7 @@ void test(const std::string &name,
       const BackgroundGrid<dim> grid(scene.file, scene.grid, MPI_COMM_WORLD);
       const auto         points = seed_body(scene.file, scene.body, grid);
       const Moments      m      = moments_of<dim>(points);
-      const bool         gauss  = scene.body.piece == "gauss";
+      const bool         gauss  = scene.body.gauss_pieces;
       const unsigned int n_moments =
         1 + dim + (gauss ? dim * (dim + 1) / 2 : 0);
       error += disorder(points, grid);

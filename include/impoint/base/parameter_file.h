@@ -36,6 +36,14 @@ namespace Impoint
                   T                           &parameter,
                   const std::string           &documentation,
                   const Patterns::PatternBase &pattern = *default_pattern<T>());
+
+    /** An entry that is one of some names, each of a value of @p choice, whose
+     * present value is the default. */
+    template <typename Value>
+    void add_choice(const std::string &entry,
+                    Value             &choice,
+                    const std::string &documentation,
+                    const std::vector<std::pair<std::string, Value>> &names);
   };
 
   /**
@@ -172,6 +180,34 @@ namespace Impoint
     Assert(parameter == exact_default,
            ExcMessage("The default of '" + entry +
                       "' needs more digits than deal.II keeps."));
+  }
+
+
+
+  template <typename Value>
+  void EntryHandler::add_choice(
+    const std::string                                &entry,
+    Value                                            &choice,
+    const std::string                                &documentation,
+    const std::vector<std::pair<std::string, Value>> &names)
+  {
+    std::string              first;
+    std::vector<std::string> all;
+    for (const auto &[name, value] : names)
+      {
+        all.push_back(name);
+        if (value == choice)
+          first = name;
+      }
+    declare_entry(entry,
+                  first,
+                  Patterns::Selection(Words::join(all, "|")),
+                  documentation);
+    add_action(entry, [&choice, names](const std::string &text) {
+      for (const auto &[name, value] : names)
+        if (name == text)
+          choice = value;
+    });
   }
 } // namespace Impoint
 

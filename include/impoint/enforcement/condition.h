@@ -16,6 +16,48 @@ namespace Impoint
   class EntryHandler;
   class ParameterFile;
 
+  enum class Constraint
+  {
+    fixed,
+    slip,
+    roller,
+    traction
+  };
+
+  /** What becomes of multipliers that are too many. */
+  enum class Superfluous
+  {
+    automatic,
+    keep,
+    remove,
+    share,
+    stabilise
+  };
+
+  enum class NitscheForm
+  {
+    automatic,
+    symmetric,
+    non_symmetric,
+    incomplete
+  };
+
+  /** Of a slip boundary: see NodalNormals. */
+  enum class Normals
+  {
+    automatic,
+    particle,
+    nodal
+  };
+
+  enum class Moves
+  {
+    automatic,
+    with_value,
+    with_material,
+    never
+  };
+
   /** What a boundary prescribes, and how it is enforced: the entries of
    * "Boundaries/<name>" that are not its shape. */
   struct ConditionParameters
@@ -41,23 +83,22 @@ namespace Impoint
 
     std::string name, section;
 
-    std::string constraint = "fixed"; // fixed|slip|roller|traction
-    std::string components;           // of a roller
-    std::string enforcement    = "projected penalty";
-    double      factor         = 1e4;
-    std::string factor_unit    = "E/h";       // E/h|Pa/m
-    std::string superfluous    = "automatic"; // keep|remove|share|stabilise
-    double      jump_penalty   = 0.3;         // [h^dim/E]
-    double      band_width     = 1e-6;        // [h]
-    double      nitsche_factor = 0;           // [n.C.n/h]; 0: by degree
-    // automatic|symmetric|non-symmetric|incomplete
-    std::string         nitsche_form   = "automatic";
-    bool                small_cut_rule = false;
-    bool                releasing      = false;
-    double              friction       = 0;          // of a slip boundary
-    std::string         normals    = "automatic";    // automatic|particle|nodal
-    std::string         value_kind = "displacement"; // displacement|velocity
-    std::string         motion     = "automatic";
+    Constraint          constraint = Constraint::fixed;
+    std::string         components; // of a roller
+    std::string         enforcement        = "projected penalty";
+    double              factor             = 1e4;
+    bool                factor_is_absolute = false; // [Pa/m], else [E/h]
+    Superfluous         superfluous        = Superfluous::automatic;
+    double              jump_penalty       = 0.3;  // [h^dim/E]
+    double              band_width         = 1e-6; // [h]
+    double              nitsche_factor     = 0;    // [n.C.n/h]; 0: by degree
+    NitscheForm         nitsche_form       = NitscheForm::automatic;
+    bool                small_cut_rule     = false;
+    bool                releasing          = false;
+    double              friction           = 0; // of a slip boundary
+    Normals             normals            = Normals::automatic;
+    bool                value_is_velocity  = false; // else a displacement
+    Moves               motion             = Moves::automatic;
     std::vector<double> rotation_centre, rotation_axis;
     double              from  = std::numeric_limits<double>::lowest();
     double              until = std::numeric_limits<double>::max();

@@ -58,10 +58,6 @@ namespace Impoint
       {
         return boundaries[i].parameters.name;
       }
-      const std::string &constraint(const unsigned int i) const
-      {
-        return boundaries[i].parameters.constraint;
-      }
 
       /** Held nodes among the active ones with the values of a step.
        * Collective. */

@@ -23,7 +23,8 @@ namespace Impoint
     public:
       LagrangeMultiplier(const ConditionParameters              &parameters,
                          PrescribedMotion<dim>                   motion,
-                         std::unique_ptr<BoundaryParticles<dim>> particles);
+                         std::unique_ptr<BoundaryParticles<dim>> particles,
+                         const bool user_chooses_factor);
 
     private:
       TractionLaw law(const unsigned int r, const double area) const override;

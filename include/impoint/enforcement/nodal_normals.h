@@ -25,9 +25,8 @@ namespace Impoint
     class NodalNormals
     {
     public:
-      /** @p choice is "automatic" (averages unless all normals are alike),
-       * "particle" or "nodal". Collective. */
-      void reinit(const std::string      &choice,
+      /** Automatic: averages unless all normals are alike. Collective. */
+      void reinit(const Normals           choice,
                   const Method<dim>      &method,
                   const ActiveNodes<dim> &active);
 

@@ -23,7 +23,8 @@ namespace Impoint
     public:
       Penalty(const ConditionParameters              &parameters,
               PrescribedMotion<dim>                   motion,
-              std::unique_ptr<BoundaryParticles<dim>> particles);
+              std::unique_ptr<BoundaryParticles<dim>> particles,
+              const bool                              projected);
 
     private:
       TractionLaw law(const unsigned int r, const double area) const override;

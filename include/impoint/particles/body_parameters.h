@@ -32,10 +32,10 @@ namespace Impoint
 
     MeshParameters mesh; // the body's shape, section "Bodies/beam/Mesh"
 
-    std::string  points = "body mesh"; // body mesh|clipped
-    unsigned int rule   = 0; // a direction: Gauss points, or sub-cells
-    unsigned int points_per_simplex = 0;          // 0: dim + 1
-    std::string  piece              = "centroid"; // clipped: centroid|gauss
+    bool         clipped = false; // points, else of the body's mesh
+    unsigned int rule    = 0;     // a direction: Gauss points, or sub-cells
+    unsigned int points_per_simplex = 0;     // 0: dim + 1
+    bool         gauss_pieces       = false; // clipped; else centroids
     std::string  outline; // clipped: 2D polygon "x y; ..."; empty: the mesh
 
     std::string signed_distance; // clipped: expression; empty: another shape
@@ -43,7 +43,7 @@ namespace Impoint
     double density   = 0; // [kg/m3]
     double thickness = 1; // 2D [m]
 
-    std::string force_place = "now"; // now|start: x, y(, z) of the body force
+    bool force_at_start = false; // x, y(, z) of the body force; else now
 
   private:
     void declare_shape(EntryHandler &prm);

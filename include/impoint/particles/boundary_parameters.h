@@ -8,6 +8,14 @@
 
 namespace Impoint
 {
+  /** How particles are put on a segment: see the entry. */
+  enum class BoundaryRule
+  {
+    equal,
+    gauss,
+    cut
+  };
+
   /** A nonconforming boundary: its shape and its particles. Or the sides of the
    * grid with an id, if it is conforming: a traction has particles on them. */
   struct BoundaryParameters
@@ -23,15 +31,15 @@ namespace Impoint
     std::string name;    // "clamp"
     std::string section; // "Boundaries/clamp"
 
-    std::string  kind        = "nonconforming"; // nonconforming|conforming
-    unsigned int boundary_id = 0;               // conforming
+    bool         conforming  = false;
+    unsigned int boundary_id = 0; // conforming
 
     // shape of a nonconforming one: corners, or a surface mesh
     std::string    polyline;
     MeshParameters mesh;                      // section ".../Mesh"
     double         segment_length        = 0; // 0: as given
     unsigned int   particles_per_segment = 0;
-    std::string    rule                  = "equal"; // equal|gauss|cut
+    BoundaryRule   rule                  = BoundaryRule::equal;
     bool           flip_normal           = false;
 
     /** The grid has no sides with the id. */

@@ -1,11 +1,17 @@
 #ifndef impoint_solver_time_parameters_h
 #define impoint_solver_time_parameters_h
 
-#include <string>
 
 namespace Impoint
 {
   class ParameterFile;
+
+  enum class InitialAcceleration
+  {
+    equilibrium,
+    zero,
+    expression
+  };
 
   /** How time is discretised. */
   struct TimeParameters
@@ -13,22 +19,22 @@ namespace Impoint
     void declare(ParameterFile &file);
     void check(const ParameterFile &file) const;
 
-    std::string kind            = "quasi-static"; // quasi-static|dynamic
-    double      end             = 1;
-    double      step            = 1;
-    double      smallest        = 1e-3; // of the given step
-    double      beta            = 0.25;
-    double      gamma           = 0.5;
-    double      dynamic_from    = 0; // [s]; load steps until then
-    double      spectral_radius = 1; // of the highest frequencies, a step
-    double      filter          = 0; // of unseen velocities [s]; 0: none
-    double      filter_at_rest  = 0; // instead, near rest [s]; 0: the same
-    std::string mass            = "lumped";      // lumped|consistent
-    std::string projection      = "lumped";      // lumped|consistent
-    std::string initial         = "equilibrium"; // equilibrium|zero|expression
-    bool        is_dynamic() const
+    bool   dynamic               = false; // else quasi-static
+    double end                   = 1;
+    double step                  = 1;
+    double smallest              = 1e-3; // of the given step
+    double beta                  = 0.25;
+    double gamma                 = 0.5;
+    double dynamic_from          = 0;     // [s]; load steps until then
+    double spectral_radius       = 1;     // of the highest frequencies, a step
+    double filter                = 0;     // of unseen velocities [s]; 0: none
+    double filter_at_rest        = 0;     // instead, near rest [s]; 0: the same
+    bool   consistent_mass       = false; // else lumped
+    bool   consistent_projection = false; // else lumped
+    InitialAcceleration initial  = InitialAcceleration::equilibrium;
+    bool                is_dynamic() const
     {
-      return kind == "dynamic";
+      return dynamic;
     }
     /** Whether no step follows @p time, but for round-off. */
     bool is_over(const double time) const
