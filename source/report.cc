@@ -42,9 +42,8 @@ namespace Impoint
   {
     for (const auto &doubt : scene.doubts())
       speaker.warning(doubt);
-    for (const auto &doubt : doubts_about_points(scene.grid,
-                                                 state.points,
-                                                 state.active.basis()))
+    for (const auto &doubt :
+         doubts_about_points(scene.grid, state.points, state.active.basis()))
       warn(doubt);
     for (unsigned int i = 0, m = 0; i < scene.boundaries.size(); ++i)
       if (scene.has_particles(i))
