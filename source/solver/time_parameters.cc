@@ -28,12 +28,10 @@ namespace Impoint
       "that load steps without inertia have brought about until then, e.g. "
       "stresses by weight.",
       Patterns::Double(0));
-    prm.add_parameter(
-      "Smallest step",
-      smallest,
-      "Part of 'Step' below which steps are not halved: the run "
-      "fails instead.",
-      Patterns::Double(1e-12, 1));
+    prm.add_parameter("Smallest step",
+                      smallest,
+                      "Part of 'Step' to which steps are halved at most.",
+                      Patterns::Double(1e-12, 1));
     prm.add_parameter("Newmark beta",
                       beta,
                       "Newmark's parameter beta.",
