@@ -176,7 +176,11 @@ namespace Impoint
                          const MaterialPoints<dim> &points)
     {
       for (const auto &method : methods)
-        if (method->holds_by_particle() &&
+        // Means over all of a cell are the better ones where it ends only for
+        // linear functions; a contact waits for what comes.
+        if ((method->holds_by_particle() ||
+             (active.basis().degree() > 1 &&
+              method->contact_states() == nullptr)) &&
             method->parameters().is_active(start, end))
           find_held_area(*method, active, points);
     }
