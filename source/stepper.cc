@@ -30,6 +30,7 @@ namespace Impoint
     , active(basis)
     , points(with_particles ? place_bodies(file, scene, basis) :
                               without_points(file, scene, basis))
+    , nearby_stiffness(active, *points)
     , conforming(basis)
     , methods(place_boundaries(file, scene, basis, *points, with_particles))
     , inertia(scene.time)
@@ -107,12 +108,13 @@ namespace Impoint
   void Stepper<dim>::begin_step(const double dt, const double end)
   {
     Enforcement::Step<dim> step;
-    step.start         = now;
-    step.end           = end;
-    step.young         = points->young();
+    step.start = now;
+    step.end   = end;
+    nearby_stiffness.reinit();
     step.ghost_penalty = scene.grid.ghost_factor();
     step.active        = &active;
     step.points        = points.get();
+    step.stiffness     = &nearby_stiffness;
     for (const auto &method : methods)
       method->begin_step(step);
     const bool dynamic = scene.time.moves_after(now);

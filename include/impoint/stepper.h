@@ -136,6 +136,7 @@ namespace Impoint
     ActiveNodes<dim>                       active;
     std::vector<BodyLoad<dim>>             body_loads;
     std::unique_ptr<MaterialPoints<dim>>   points;
+    NearbyStiffness<dim>                   nearby_stiffness;
     EndStates<dim>                         end_states;
     Enforcement::Conforming<dim>           conforming;
     typename NonlinearSystem<dim>::Methods methods;

@@ -24,7 +24,8 @@ namespace Impoint
     template <int dim>
     double GapMethod<dim>::unit(const unsigned int r) const
     {
-      return this->current.young / sizes[r];
+      return this->current.stiffness->young(this->boundary->ranges()[r].cell) /
+             sizes[r];
     }
 
 
@@ -165,7 +166,7 @@ namespace Impoint
           jumps.reinit(*this->boundary,
                        *step.active,
                        this->condition.jump_penalty,
-                       step.young);
+                       step.stiffness->largest_young(this->boundary->ranges()));
           tell_multipliers();
         }
       make_link_patches();

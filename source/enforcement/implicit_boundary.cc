@@ -41,7 +41,9 @@ namespace Impoint
       if (k >= active.n_material_cells())
         {
           // without material, and so without a traction
-          state.tangent = points.stiffest_material().elastic_tangent();
+          state.tangent =
+            this->current.stiffness->material(this->boundary->ranges()[r].cell)
+              .elastic_tangent();
           return state;
         }
       const auto &range  = points.ranges()[k];

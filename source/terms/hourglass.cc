@@ -2,6 +2,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
+
 namespace Impoint
 {
   namespace
@@ -54,10 +56,15 @@ namespace Impoint
 
 
 
-  /** Of cell @p c: n x n, the same for all components. */
+  /** Of the active cell @p k: n x n, the same for all components. */
   template <int dim>
-  std::vector<double> Hourglass<dim>::stiffness(const unsigned int c) const
+  std::vector<double> Hourglass<dim>::stiffness(const unsigned int k) const
   {
+    const unsigned int c     = active.cell(k);
+    double             young = 0;
+    for (unsigned int p = points.ranges()[k].begin; p < points.ranges()[k].end;
+         ++p)
+      young = std::max(young, points.material(p).young());
     const auto       &basis = active.basis();
     const QGauss<dim> rule(2);
     Point<dim>        middle;
@@ -70,7 +77,7 @@ namespace Impoint
     for (unsigned int q = 0; q < rule.size(); ++q)
       {
         basis.evaluate(c, rule.point(q), support.data());
-        const double weight = hourglass_factor * points.young() *
+        const double weight = hourglass_factor * young *
                               points.carried().thickness * rule.weight(q) *
                               basis.grid().volume(c);
         for (unsigned int a = 0; a < n; ++a)
@@ -98,7 +105,7 @@ namespace Impoint
       if (is_starved(k))
         {
           starved_cells.push_back(k);
-          matrices.push_back(stiffness(active.cell(k)));
+          matrices.push_back(stiffness(k));
         }
   }
 

@@ -30,14 +30,16 @@ public:
     , basis(grid, file, scene.grid)
     , active(basis)
     , points(place_bodies(file, scene, basis))
+    , stiffness(active, *points)
     , methods(place_boundaries(file, scene, basis, *points))
   {
     active.reinit(points->cells(), Enforcement::cells(methods, 0, 1));
     Enforcement::Step<2> step;
-    step.end    = 1;
-    step.young  = points->young();
-    step.active = &active;
-    step.points = points.get();
+    step.end = 1;
+    stiffness.reinit();
+    step.active    = &active;
+    step.points    = points.get();
+    step.stiffness = &stiffness;
     floor().begin_step(step);
   }
 
@@ -72,6 +74,7 @@ private:
   Basis<2>                           basis;
   ActiveNodes<2>                     active;
   std::unique_ptr<MaterialPoints<2>> points;
+  NearbyStiffness<2>                 stiffness;
   NonlinearSystem<2>::Methods        methods;
 };
 

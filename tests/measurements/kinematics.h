@@ -64,6 +64,7 @@ public:
     , basis(grid)
     , active(basis)
     , points(place_bodies(file, scene, basis))
+    , stiffness(active, *points)
     , methods(place_boundaries(file, scene, basis, *points))
   {
     for (const auto &parameters : scene.measurements)
@@ -77,10 +78,11 @@ public:
   {
     active.reinit(points->cells(), {});
     Enforcement::Step<dim> step;
-    step.start  = time;
-    step.end    = time + 1;
-    step.young  = points->young();
-    step.active = &active;
+    step.start = time;
+    step.end   = time + 1;
+    stiffness.reinit();
+    step.stiffness = &stiffness;
+    step.active    = &active;
     for (const auto &method : methods)
       method->begin_step(step);
     if (time == 0)
@@ -167,6 +169,7 @@ private:
   Basis<dim>                                                   basis;
   ActiveNodes<dim>                                             active;
   std::unique_ptr<MaterialPoints<dim>>                         points;
+  NearbyStiffness<dim>                                         stiffness;
   typename NonlinearSystem<dim>::Methods                       methods;
   double                                                       time = 0;
   std::vector<std::unique_ptr<Measurements::Measurement<dim>>> measurements;

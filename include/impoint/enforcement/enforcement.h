@@ -5,7 +5,7 @@
 #include <impoint/enforcement/condition.h>
 #include <impoint/grid/active_nodes.h>
 #include <impoint/particles/boundary_particles.h>
-#include <impoint/particles/material_points.h>
+#include <impoint/particles/nearby_stiffness.h>
 #include <impoint/terms/term.h>
 
 #include <functional>
@@ -21,11 +21,11 @@ namespace Impoint
     template <int dim>
     struct Step
     {
-      double                     start = 0, end = 0; // time [s]
-      double                     young = 0; // [Pa], the stiffest material
-      double                     ghost_penalty = 0; // factor; 0: none
-      const ActiveNodes<dim>    *active        = nullptr;
-      const MaterialPoints<dim> *points        = nullptr;
+      double                      start = 0, end = 0; // time [s]
+      double                      ghost_penalty = 0;  // factor; 0: none
+      const ActiveNodes<dim>     *active        = nullptr;
+      const MaterialPoints<dim>  *points        = nullptr;
+      const NearbyStiffness<dim> *stiffness     = nullptr;
     };
 
     /** Strength with which a method adds itself to a matrix. */

@@ -79,6 +79,10 @@ namespace Impoint
     {
       return *materials[body(p)];
     }
+    unsigned int n_bodies() const
+    {
+      return materials.size();
+    }
     const Material &material_of_body(const unsigned int number) const
     {
       return *materials[number];

@@ -40,7 +40,7 @@ namespace Impoint
   private:
     bool                is_starved(const unsigned int k) const;
     double              points_that_count(const unsigned int k) const;
-    std::vector<double> stiffness(const unsigned int c) const;
+    std::vector<double> stiffness(const unsigned int k) const;
 
     const ActiveNodes<dim>          &active;
     const MaterialPoints<dim>       &points;
