@@ -113,16 +113,27 @@ void shear()
   print(scene, "slope ");
 }
 
+// 3 h of the material are behind it, right behind if it ends low enough
+Entries wall_at_half(const std::string &name, const std::string &end)
+{
+  const std::string section = "Boundaries/" + name + " wall/";
+  return {section + "Polyline = -0.5 4; -0.5 " + end,
+          section + "Flip normal = true"};
+}
+
 // the wall's particles, as a step would leave them: 0.01 further away
 void set_particles()
 {
   Kinematics<2> scene(
     square<2>("as made") +
-    Entries{"Boundaries/Names = wall",
+    Entries{"Boundaries/Names = wall, deep wall, beside wall",
             "Boundaries/wall/Polyline = 1 2; 1 -2",
             "Boundaries/wall/Flip normal = true",
-            "Measurements/Names = moved"} +
-    measure("moved", {"Quantity = penetration", "Boundary = wall"}));
+            "Measurements/Names = moved, deep, beside"} +
+    wall_at_half("deep", "0") + wall_at_half("beside", "1.6") +
+    measure("moved", {"Quantity = penetration", "Boundary = wall"}) +
+    measure("deep", {"Quantity = penetration", "Boundary = deep wall"}) +
+    measure("beside", {"Quantity = penetration", "Boundary = beside wall"}));
   scene.set_boundary = [](BoundaryParticles<2> &wall) {
     for (unsigned int b = 0; b < wall.n(); ++b)
       wall.data(b)[wall.slots().x] += 0.01;

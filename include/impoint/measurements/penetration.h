@@ -9,9 +9,9 @@ namespace Impoint
   {
     /**
      * How deep material points lie behind a nonconforming boundary while it
-     * acts: along the normal of the nearest boundary particle, if that is
-     * within one cell size h of the point (further away a point has gone round
-     * the boundary's end).
+     * acts: along the normal of the nearest boundary particle, at any depth
+     * right behind that particle's part of the boundary; elsewhere, beyond an
+     * end or a corner, if it is within one cell size h of the point.
      *
      * Results: "NAME depth": largest of all steps, in units of h, zero if no
      * point was ever behind. The history has that of each step.
