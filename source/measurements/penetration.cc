@@ -83,12 +83,23 @@ namespace Impoint
 
 
     template <int dim>
+    void Penetration<dim>::start(const State<dim> &state)
+    {
+      sides.assign(state.points.n_global(), elsewhere);
+      for (const auto &method : state.methods)
+        if (method->parameters().name == boundary)
+          depth(state, method->particles(), false);
+    }
+
+
+
+    template <int dim>
     void Penetration<dim>::end_step(const State<dim> &state)
     {
       double deepest = 0;
       for (const auto &method : state.methods)
-        if (method->parameters().name == boundary && method->is_active())
-          deepest = std::max(deepest, depth(state, method->particles()));
+        if (method->parameters().name == boundary)
+          deepest = depth(state, method->particles(), method->is_active());
       deepest = Utilities::MPI::max(deepest,
                                     state.active.basis().grid().communicator());
       largest = std::max(largest, deepest);
@@ -97,20 +108,23 @@ namespace Impoint
 
 
 
+    /** Brings the points' sides up to date, too. */
     template <int dim>
     double Penetration<dim>::depth(const State<dim>             &state,
-                                   const BoundaryParticles<dim> &wall) const
+                                   const BoundaryParticles<dim> &wall,
+                                   const bool                    acts)
     {
-      const auto &points = state.points;
-      const auto &grid   = state.active.basis().grid();
-      const auto  tree   = pack_rtree(all_particles(wall, grid.communicator()));
+      const auto    &points = state.points;
+      const auto    &grid   = state.active.basis().grid();
+      const MPI_Comm comm   = grid.communicator();
+      const auto     tree   = pack_rtree(all_particles(wall, comm));
 
       // Half of the distance between particles, which Gauss rules have up
       // to 1.2 times as far as equal ones.
-      const double reach =
-        0.6 * std::sqrt(dim - 1.) * largest_size(wall, grid.communicator());
+      const double reach = 0.6 * std::sqrt(dim - 1.) * largest_size(wall, comm);
 
-      double deepest = 0;
+      double                   deepest = 0;
+      std::vector<signed char> sides_now(sides.size(), elsewhere);
       for (const auto &range : points.ranges())
         {
           const double h = grid.size(range.cell);
@@ -123,12 +137,26 @@ namespace Impoint
                 {
                   const Tensor<1, dim> way =
                     points.position(p) - nearest->first;
-                  const double depth = way * nearest->second;
-                  if (way.norm() < h ||
-                      (way - depth * nearest->second).norm() < reach)
-                    deepest = std::max(deepest, depth / h);
+                  const double behind = way * nearest->second;
+                  const bool   opposite =
+                    (way - behind * nearest->second).norm() < reach;
+                  const auto id = points.id(p);
+                  if (behind <= 0)
+                    sides_now[id] = opposite ? front : elsewhere;
+                  else if (acts && (way.norm() < h ||
+                                    (opposite && sides[id] != elsewhere)))
+                    {
+                      sides_now[id] = opposite ? passed : elsewhere;
+                      deepest       = std::max(deepest, behind / h);
+                    }
                 }
         }
+      MPI_Allreduce(sides_now.data(),
+                    sides.data(),
+                    sides.size(),
+                    MPI_SIGNED_CHAR,
+                    MPI_MAX,
+                    comm);
       return deepest;
     }
 
@@ -146,7 +174,7 @@ namespace Impoint
     void Penetration<dim>::save_or_load(StateArchive &archive)
     {
       NamedValues<dim>::save_or_load(archive);
-      archive &largest;
+      archive &largest &sides;
     }
   } // namespace Measurements
 } // namespace Impoint

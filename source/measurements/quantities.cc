@@ -98,7 +98,7 @@ namespace Impoint
                       {"Body", "Direction", "Axis", "Reference"},
                       "path; angle"),
                row<Penetration>("penetration",
-                         "largest depth of points right behind a boundary, in cell "
+                         "largest depth of points behind a boundary, in cell "
                                 "sizes",
                          {"Boundary", "Body"}),
                row<RunOut>(

@@ -24,7 +24,7 @@ namespace Impoint
     // the bytes: what changes them, here or in what a run stores of itself,
     // raises it.
     const std::string first_words = "impoint checkpoint, format ";
-    const std::string format      = "2";
+    const std::string format      = "3";
 
     using Number = std::uint64_t;
 

@@ -113,15 +113,16 @@ void shear()
   print(scene, "slope ");
 }
 
-// 3 h of the material are behind it, right behind if it ends low enough
-Entries wall_at_half(const std::string &name, const std::string &end)
+Entries
+wall(const std::string &name, const std::string &x, const std::string &end)
 {
   const std::string section = "Boundaries/" + name + " wall/";
-  return {section + "Polyline = -0.5 4; -0.5 " + end,
+  return {section + "Polyline = " + x + " 4; " + x + " " + end,
           section + "Flip normal = true"};
 }
 
-// the wall's particles, as a step would leave them: 0.01 further away
+// the walls' particles, as a step would leave them: 0.01 further away, or 3 h
+// amid the material, of which all or nothing is before their ends
 void set_particles()
 {
   Kinematics<2> scene(
@@ -130,13 +131,13 @@ void set_particles()
             "Boundaries/wall/Polyline = 1 2; 1 -2",
             "Boundaries/wall/Flip normal = true",
             "Measurements/Names = moved, deep, beside"} +
-    wall_at_half("deep", "0") + wall_at_half("beside", "1.6") +
+    wall("deep", "1", "0") + wall("beside", "1", "1.6") +
     measure("moved", {"Quantity = penetration", "Boundary = wall"}) +
     measure("deep", {"Quantity = penetration", "Boundary = deep wall"}) +
     measure("beside", {"Quantity = penetration", "Boundary = beside wall"}));
   scene.set_boundary = [](BoundaryParticles<2> &wall) {
     for (unsigned int b = 0; b < wall.n(); ++b)
-      wall.data(b)[wall.slots().x] += 0.01;
+      wall.data(b)[wall.slots().x] += wall.name() == "wall" ? 0.01 : -1.5;
   };
   Tensor<2, 2> A;
   A[0][0] = A[1][1] = 0.2;

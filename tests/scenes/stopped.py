@@ -78,9 +78,9 @@ def check_format(whole):
     for old in ("1", "10"):
         folder = copied(whole, "other format")
         newest = states(folder)[-1]
-        stored = newest.read_bytes().replace(b"format 2\n", f"format {old}\n".encode(), 1)
+        stored = newest.read_bytes().replace(b"format 3\n", f"format {old}\n".encode(), 1)
         newest.write_bytes(stored)
-        expect_error(folder, f"has format {old}, this version of impoint .* format 2",
+        expect_error(folder, f"has format {old}, this version of impoint .* format 3",
                      ranks=2 if old == "1" else 1)
     print("a checkpoint of another format: said so")
 
