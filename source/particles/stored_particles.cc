@@ -10,19 +10,18 @@ namespace Impoint
 {
   namespace
   {
-    using PackedCell = CellId::binary_type;
-
     /** The particles of one rank: by cell, and one after the other. */
     struct PackedParticles
     {
-      std::vector<unsigned int>          cells; // PackedCell's numbers
+      StoredCells                        cells;
       std::vector<std::uint64_t>         numbers_in_cell;
       std::vector<types::particle_index> ids;
       std::vector<double>                properties;
 
       void save_or_load(StateArchive &archive)
       {
-        archive &cells &numbers_in_cell &ids &properties;
+        cells.save_or_load(archive);
+        archive &numbers_in_cell &ids &properties;
       }
     };
 
@@ -32,6 +31,16 @@ namespace Impoint
         archive.tag(field.name + " " + std::to_string(field.size));
     }
   } // namespace
+
+
+
+  OwnCells::const_iterator StoredCells::find(const std::size_t i,
+                                             const OwnCells   &cells) const
+  {
+    CellId::binary_type name;
+    std::copy_n(numbers.begin() + i * name.size(), name.size(), name.begin());
+    return cells.find(CellId(name));
+  }
 
 
 
@@ -56,9 +65,7 @@ namespace Impoint
     const unsigned int n_doubles = cloud.layout().n_doubles();
     for (const auto &range : cloud.ranges())
       {
-        const PackedCell cell =
-          grid.cell(range.cell)->id().template to_binary<dim>();
-        packed.cells.insert(packed.cells.end(), cell.begin(), cell.end());
+        packed.cells.add(grid, range.cell);
         packed.numbers_in_cell.push_back(range.end - range.begin);
         for (unsigned int p = range.begin; p < range.end; ++p)
           {
@@ -91,11 +98,7 @@ namespace Impoint
         std::size_t p = 0;
         for (std::size_t i = 0; i < packed.numbers_in_cell.size(); ++i)
           {
-            PackedCell cell;
-            std::copy_n(packed.cells.begin() + i * cell.size(),
-                        cell.size(),
-                        cell.begin());
-            const auto found = cells.find(CellId(cell));
+            const auto found = packed.cells.find(i, cells);
             for (std::size_t k = 0; k < packed.numbers_in_cell[i]; ++k, ++p)
               if (found != cells.end())
                 {

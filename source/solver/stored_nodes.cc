@@ -8,18 +8,17 @@ namespace Impoint
 {
   namespace
   {
-    using PackedCell = CellId::binary_type;
-
     /** The cells of one rank, and the values at their nodes. */
     struct PackedNodes
     {
-      std::vector<unsigned int> cells; // PackedCell's numbers
+      StoredCells               cells;
       std::vector<unsigned int> n_nodes;
       std::vector<double>       values;
 
       void save_or_load(StateArchive &archive)
       {
-        archive &cells &n_nodes &values;
+        cells.save_or_load(archive);
+        archive &n_nodes &values;
       }
     };
   } // namespace
@@ -34,12 +33,7 @@ namespace Impoint
     PackedNodes packed;
     for (unsigned int k = 0; k < active.n_cells(); ++k)
       {
-        const PackedCell cell = active.basis()
-                                  .grid()
-                                  .cell(active.cell(k))
-                                  ->id()
-                                  .template to_binary<dim>();
-        packed.cells.insert(packed.cells.end(), cell.begin(), cell.end());
+        packed.cells.add(active.basis().grid(), active.cell(k));
         packed.n_nodes.push_back(active.nodes(k).size());
         for (const unsigned int i : active.nodes(k))
           for (unsigned int d = 0; d < dim; ++d)
@@ -68,11 +62,7 @@ namespace Impoint
         const double *value = packed.values.data();
         for (unsigned int i = 0; i < packed.n_nodes.size(); ++i)
           {
-            PackedCell cell;
-            std::copy_n(packed.cells.begin() + i * cell.size(),
-                        cell.size(),
-                        cell.begin());
-            const auto         found = cells.find(CellId(cell));
+            const auto         found = packed.cells.find(i, cells);
             const unsigned int n     = packed.n_nodes[i] * dim;
             const unsigned int k     = found == cells.end() ?
                                          BackgroundGrid<dim>::nowhere :

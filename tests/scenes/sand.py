@@ -30,14 +30,15 @@ def collapse(scene, folder, settings=()):
 
 
 def compare_walls():
-    """Nonconforming walls and those on the grid: the same flow within h."""
+    """Nonconforming walls and those on the grid: the same flow within h / 4."""
     short = ["Time/End time = 0.2"]
     cut = collapse("penalty/4.2-granular-column.prm", "cut", short)[-1]
     fit = collapse("penalty/4.2-granular-column-conforming.prm", "fit",
                    short)[-1]
     for name in ("run-out 99 %", "centre x", "centre y"):
         print(f"{name}: {cut[name]:.4f}, conforming {fit[name]:.4f}")
-        expect(abs(cut[name] - fit[name]) < 0.01, f"{name} of both walls")
+        # a quarter of a cell; measured: a seventh, the front scatters most
+        expect(abs(cut[name] - fit[name]) < 0.0025, f"{name} of both walls")
 
 
 def come_to_rest():
@@ -75,29 +76,42 @@ def drum():
     expect(summary["counts"]["halved steps"] <= 1, "drum: steps were lost")
     rows = rows_of("drum")
     depth = max(row["outside depth"] for row in rows)
-    late = [row["repose"] for row in rows if row["time"] > 0.6]
+    late = [row["repose"] for row in rows if row["time"] > 0.5]
+    mean = sum(late) / len(late)
     print(f"drum: {depth:.4f} h outside, slope {min(late):.1f} to "
-          f"{max(late):.1f} degrees")
+          f"{max(late):.1f} degrees, on average {mean:.1f}")
     expect(depth < 0.05, "sand leaves the drum")
-    expect(20 < min(late) and max(late) < 35, "the angle of repose")
+    # The friction angle. Strips' highest points rise and slide: 24.4 to 30.4.
+    expect(abs(mean - 27) < 2 and 23 < min(late) and max(late) < 32,
+           "the angle of repose")
 
 
 def funnel():
-    """In 3D, its first part: nothing passes the moving wall, which carries part
-    of the weight."""
+    """In 3D, its first part: nothing passes the moving wall, which carries the
+    sand; forces of floor and funnel and weight are what its momentum gains."""
     summary = run_scene("multiplier/4.6-rising-cone-3d.prm", "funnel", [
         "Output/Pictures every = 0", "Time/End time = 0.25",
-        "Measurements/Names = run-out, height, energy, rest, behind",
+        "Measurements/Names = run-out, height, energy, rest, behind, all",
+        "Measurements/all/Quantity = momentum",
         "Measurements/behind/Quantity = penetration",
         "Measurements/behind/Boundary = funnel"])
     rows = rows_of("funnel")
     depth = max(row["behind depth"] for row in rows)
-    late = [row["funnel F_y"] for row in rows[30:]]
-    share = sum(late) / len(late) / (9.81 * rows[-1]["mass"])
-    print(f"funnel in 3D: {depth:.4f} h behind, carries {share:.2f} of the weight")
+    late = rows[30:]
+    parts = [sum((row[f"{wall} F_y"] + before[f"{wall} F_y"]) / 2 * row["dt"]
+                 for before, row in zip(late, late[1:]))  # as Newmark's method does
+             for wall in ("floor", "funnel")]
+    weight = 9.81 * late[0]["mass"] * (late[-1]["time"] - late[0]["time"])
+    gain = late[-1]["all p_y"] - late[0]["all p_y"]
+    error = (sum(parts) - weight - gain) / weight
+    share = parts[1] / sum(parts)
+    print(f"funnel in 3D: {depth:.4f} h behind, carries {share:.3f} of the sand, "
+          f"momentum {error:.1e} off")
     expect(summary["counts"]["halved steps"] == 0, "funnel: steps were lost")
     expect(depth < 0.05, "sand leaks through the funnel")
-    expect(0.3 < share < 1.2, "the funnel carries no sand")
+    # What the outlet lets through has not come down yet.
+    expect(0.95 < share < 1.05, "the funnel does not carry the sand")
+    expect(abs(error) < 1e-10, "forces are not what alters the momentum")
     expect(abs(rows[-1]["mass"] / rows[0]["mass"] - 1) < 1e-12, "mass of sand")
 
 

@@ -18,6 +18,30 @@ namespace Impoint
   template <int dim>
   OwnCells own_cells(const BackgroundGrid<dim> &grid);
 
+  /** Cells in an archive, by their names. */
+  class StoredCells
+  {
+  public:
+    template <int dim>
+    void add(const BackgroundGrid<dim> &grid, const unsigned int c)
+    {
+      const auto name = grid.cell(c)->id().template to_binary<dim>();
+      numbers.insert(numbers.end(), name.begin(), name.end());
+    }
+
+    /** The one that was added as number @p i, or cells.end(). */
+    OwnCells::const_iterator find(const std::size_t i,
+                                  const OwnCells   &cells) const;
+
+    void save_or_load(StateArchive &archive)
+    {
+      archive &numbers;
+    }
+
+  private:
+    std::vector<unsigned int> numbers;
+  };
+
   /** Appends this rank's particles of @p cloud to @p archive, in their order.
    */
   template <int dim>
