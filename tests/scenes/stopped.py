@@ -31,8 +31,8 @@ def check_damage(whole):
            ["step-000000028.state", "step-000000032.state"],
            f"not the last two checkpoints: {files}")
     for title, damage in (("cut", lambda old: old[:-1]),
-                          ("altered", lambda old: old[:5000] + b"?" +
-                           old[5001:])):
+                          ("altered", lambda old: old[:5000] +
+                           bytes([old[5000] ^ 255]) + old[5001:])):
         folder = copied(whole, title)
         newest = states(folder)[-1]
         newest.write_bytes(damage(newest.read_bytes()))
