@@ -47,26 +47,30 @@ namespace Impoint
   template <int dim>
   void Newton<dim>::solve(Vector &u)
   {
-    Vector delta;
+    constexpr unsigned int patience = 5; // contact finds itself in the first
+    Vector                 delta;
     history.assign(1, system.evaluate(u, true));
+    norms.assign(1, system.residual_norm());
     n_balanced  = 0;
     bool frozen = false;
     for (unsigned int iteration = 0; iteration < parameters.max_iterations;
          ++iteration)
       {
         ++counters.newton_iterations;
-        if (iteration == parameters.max_iterations / 2)
+        if (iteration == std::max(parameters.max_iterations / 2, patience))
           system.freeze(frozen = true); // ends a cycle of what touches
         system.correct(iteration == 0, u, delta);
         if (system.is_linear())
           return finish_linear_step(delta, u);
         history.push_back(advance(delta, !expects_convergence(), u));
+        norms.push_back(system.residual_norm());
         if (has_converged(delta, u))
           {
             if (!frozen)
               return;
             system.freeze(frozen = false);
             history.back() = system.evaluate(u, true);
+            norms.back()   = system.residual_norm();
             if (history.back() <= parameters.tolerance &&
                 system.contact_settled())
               return;
@@ -150,8 +154,8 @@ namespace Impoint
   template <int dim>
   bool Newton<dim>::stalls() const
   {
-    const unsigned int n = history.size();
-    return n >= 3 && history[n - 1] > 0.5 * history[n - 3];
+    const unsigned int n = norms.size();
+    return n >= 3 && norms[n - 1] > 0.5 * norms[n - 3];
   }
 
 
@@ -189,9 +193,9 @@ namespace Impoint
             if (last || history.size() == 1 ||
                 std::isfinite(residual) == false || system.contact_changed() ||
                 residual <= parameters.tolerance ||
-                residual <=
+                system.residual_norm() <=
                   (must_descend ? 1. - least_descent * part : worst_growth) *
-                    history.back())
+                    norms.back())
               {
                 if (!std::isfinite(residual))
                   throw StepFailed("the residual is not a number");

@@ -149,7 +149,8 @@ namespace Impoint
     full_rest.update_ghost_values();
     rest = full_rest;
     cut(held, false, rest);
-    return rest.l2_norm() / force_scale();
+    norm = rest.l2_norm();
+    return norm / force_scale();
   }
 
 

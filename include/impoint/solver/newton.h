@@ -66,6 +66,7 @@ namespace Impoint
     NonlinearSystem<dim>  &system;
     Counters              &counters;
     std::vector<double>    history;
+    std::vector<double>    norms;                  // [N], of the same residuals
     bool                   tangent_is_new = false; // with the last residual
     unsigned int           n_balanced     = 0;     // iterates in a row
   };

@@ -87,6 +87,13 @@ namespace Impoint
      */
     double evaluate(const Vector &u, const bool tangent_wanted);
 
+    /** [N], of the last evaluation. What it is relative to may fall with it,
+     * where no force is left in the end. */
+    double residual_norm() const
+    {
+      return norm;
+    }
+
     /**
      * The relative residual that round-off leaves at @p u: of displacements
      * times the stiffest entry of the matrix (penalties), and of strains that
@@ -199,6 +206,7 @@ namespace Impoint
     Vector                   external, rest, full_rest;
     const Inertia<dim>      *inertia    = nullptr;
     double                   scale      = 0; // forces that balance [N]
+    double                   norm       = 0; // of the last residual [N]
     bool                     prescribed = false;
     Vector multiplier_forces; // what new multipliers changed in the residual
   };
