@@ -1,6 +1,6 @@
 // Ghost penalty: polynomials of the basis' degree have no force, the force is
-// the matrix times the values, and a kink at a face costs what the integral
-// says.
+// the matrix times the values, and a wave costs what the integral says, times
+// the factor, or 1 at faces of cells without material (most here).
 
 #include <impoint/terms/ghost_penalty.h>
 
