@@ -113,10 +113,10 @@ namespace Impoint
     for (const auto &file_name : stored.damaged)
       report.warn("The checkpoint '" + file_name +
                   "' is damaged: going on from an older one.");
+    patterns_before = counters.patterns;
     stepper.restore(stored.particles, step_size.size);
     checkpoints.stored();
     earlier_seconds = seconds.total;
-    patterns_before = counters.patterns;
   }
 
 
