@@ -10,13 +10,12 @@ namespace Impoint
     {
       // In units of E/h. A linear solve reduces the gap by this factor, and
       // looses its reciprocal in digits of the material's stiffness.
-      // Constraints that cells share differ enough for the smaller factor.
-      // Contact is content with it, too; less would leave cells with little
-      // material to the few combinations of multipliers that are looked for.
+      // Contact is content with a smaller one; less would leave cells with
+      // little material to the few combinations of multipliers that are looked
+      // for.
       // With friction round-off of the gap beside a large factor would decide
       // on what sticks and slides.
-      constexpr double best_factor = 1e6, best_shared_factor = 1e4,
-                       best_factor_of_contact  = 1e4,
+      constexpr double best_factor = 1e6, best_factor_of_contact = 1e4,
                        best_factor_of_friction = 1e2;
     } // namespace
 
@@ -50,11 +49,7 @@ namespace Impoint
                                             best_factor_of_friction) *
                     this->unit(r);
       else
-        law.gamma =
-          this->unit(r) * (this->shares_constraints() &&
-                               this->current.active->basis().degree() == 1 ?
-                             best_shared_factor :
-                             best_factor);
+        law.gamma = best_factor * this->unit(r);
       if (this->is_linear() && !user_chooses_factor)
         law.gamma = this->enlarge(law.gamma, r, area);
       return law;
