@@ -102,11 +102,12 @@ namespace Impoint
                       factor,
                       "Penalty factor beta, in the unit below.",
                       Patterns::Double(1e-300));
-    prm.add_choice("Penalty unit",
-                   factor_is_absolute,
-                   "E/h: beta is a multiple of Young's modulus over the cell "
-                   "size (largest of all bodies); Pa/m: beta is absolute.",
-                   {{"E/h", false}, {"Pa/m", true}});
+    prm.add_choice(
+      "Penalty unit",
+      factor_is_absolute,
+      "E/h: beta is a multiple of Young's modulus over the cell "
+      "size (of the material in or near the cell); Pa/m: absolute.",
+      {{"E/h", false}, {"Pa/m", true}});
     prm.add_choice(
       "Superfluous constraints",
       superfluous,
