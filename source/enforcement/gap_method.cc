@@ -290,6 +290,9 @@ namespace Impoint
       first_contacts = contacts;
       if (!this->condition.releasing)
         return; // all touches
+      for (Patch &patch : link_patches)
+        if (contacts[patch.begin].touch == Touch::open)
+          patch.multiplier = Tensor<1, dim>();
       for_active_ranges(*this,
                         *this->current.active,
                         [&](const unsigned int r, const unsigned int) {
@@ -316,10 +319,9 @@ namespace Impoint
         {
           typename Patch::Answer answer;
           answer.traction = shared_tractions[r];
-          return store(r,
-                       make_patch(r, range.begin, range.end),
-                       answer,
-                       shared_gaps[r]);
+          Patch patch     = make_patch(r, range.begin, range.end);
+          patch.reach     = shared_reaches[r];
+          return store(r, patch, answer, shared_gaps[r]);
         }
       if (u != nullptr && takes_part(r))
         return for_patches(r, [&](const Patch &patch) {

@@ -4,29 +4,13 @@ namespace Impoint
 {
   namespace Enforcement
   {
-    namespace
-    {
-      /** Without contact: what holds goes on holding. */
-      template <int dim>
-      typename GapPatch<dim>::Answer held(const GapPatch<dim> &patch,
-                                          const double        *u)
-      {
-        typename GapPatch<dim>::Contact contact;
-        contact.trial = patch.trial(u);
-        return patch.answer(contact);
-      }
-    } // namespace
-
-
-
     template <int dim>
     bool GapMethod<dim>::shares_constraints() const
     {
       const Superfluous choice = this->condition.superfluous;
-      return projected && is_linear() &&
-             (choice == Superfluous::share ||
-              (choice == Superfluous::automatic &&
-               this->condition.has_multipliers()));
+      return projected && (choice == Superfluous::share ||
+                           (choice == Superfluous::automatic &&
+                            this->condition.has_multipliers()));
     }
 
 
@@ -57,8 +41,15 @@ namespace Impoint
         [&](const unsigned int r) {
           return make_patch(r, ranges[r].begin, ranges[r].end);
         });
+      const unsigned int n = this->boundary->n();
       for (unsigned int l = 0; l < link_patches.size(); ++l)
-        link_patches[l].law = law(shared.middle(l), link_patches[l].area);
+        {
+          Patch &patch = link_patches[l];
+          patch.begin = patch.end = n + l; // the place of its contact
+          set_law(shared.middle(l), patch);
+        }
+      contacts.resize(n + link_patches.size());
+      first_contacts = contacts;
     }
 
 
@@ -69,7 +60,7 @@ namespace Impoint
                                   CellSystem        &system) const
     {
       add_patch(link_patches[l],
-                held(link_patches[l], system.u),
+                answer(link_patches[l], system.u),
                 shared.middle(l),
                 strength,
                 system);
@@ -81,10 +72,12 @@ namespace Impoint
     void GapMethod<dim>::update_link_multipliers(const unsigned int l,
                                                  CellSystem        &system)
     {
-      Patch               &patch = link_patches[l];
-      const Tensor<1, dim> t     = held(patch, system.u).traction;
-      patch.multiplier           = t;
-      patch.add_force(held(patch, system.u).traction - t, system);
+      Patch &patch = link_patches[l];
+      if (!patch.law.augmented)
+        return;
+      const Tensor<1, dim> t = linear_traction(patch, system.u);
+      patch.multiplier       = t;
+      patch.add_force(linear_traction(patch, system.u) - t, system);
     }
 
 
@@ -95,17 +88,30 @@ namespace Impoint
     {
       if (!shares_constraints())
         return;
-      std::vector<Tensor<1, dim>> tractions, gaps;
+      std::vector<Tensor<1, dim>> tractions, gaps, states;
       std::vector<double>         u;
       for (unsigned int l = 0; l < link_patches.size(); ++l)
         {
+          const Patch &patch = link_patches[l];
           displacements(l, u);
-          tractions.push_back(held(link_patches[l], u.data()).traction);
-          gaps.push_back(link_patches[l].gap(u.data()));
+          tractions.push_back(answer(patch, u.data()).traction);
+          gaps.push_back(patch.gap(u.data()));
+          states.emplace_back();
+          states.back()[0] = int(contacts[patch.begin].touch);
+          states.back()[1] = patch.reach;
         }
       const MPI_Comm comm = this->current.active->basis().grid().communicator();
       shared_tractions    = shared.distribute(tractions, comm);
       shared_gaps         = shared.distribute(gaps, comm);
+      states              = shared.distribute(states, comm);
+      shared_reaches.clear();
+      for (unsigned int r = 0; r < states.size(); ++r)
+        {
+          shared_reaches.push_back(states[r][1]);
+          if (shared.contains(r))
+            contacts[this->boundary->ranges()[r].begin].touch =
+              Touch(int(states[r][0]));
+        }
     }
 
     template class GapMethod<2>;

@@ -1,7 +1,6 @@
 #include <impoint/enforcement/gap_method.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace Impoint
 {
@@ -128,13 +127,12 @@ namespace Impoint
       patch.begin = begin;
       patch.end   = end;
       // where nothing touches, what will touch first, at about the same time
-      constexpr double same    = 0.05; // [h]
-      double           nearest = std::numeric_limits<double>::max();
+      constexpr double same = 0.05; // [h]
       for (unsigned int b = begin; b < end; ++b)
         if (this->boundary->held_area(b) > 0)
-          nearest = std::min(nearest, away(b));
-      patch.reach = nearest;
-      if (nearest > 0)
+          patch.nearest = std::min(patch.nearest, away(b));
+      patch.reach = patch.nearest;
+      if (patch.nearest > 0)
         patch.reach +=
           same * this->current.active->basis().grid().smallest_size();
       for (unsigned int b = begin; b < end; ++b)
@@ -151,15 +149,23 @@ namespace Impoint
       else
         patch.normal /= patch.normal.norm();
 
-      patch.law = law(r, patch.area);
+      set_law(r, patch);
       if (jumps.acts())
         {
           patch.start_gap += jumps.shift(r);
           patch.law.compliance += jumps.compliance(r);
         }
+      return patch;
+    }
+
+
+
+    template <int dim>
+    void GapMethod<dim>::set_law(const unsigned int r, Patch &patch) const
+    {
+      patch.law           = law(r, patch.area);
       patch.law.releasing = this->condition.releasing;
       patch.law.friction  = friction();
-      return patch;
     }
 
 

@@ -103,9 +103,19 @@ namespace Impoint
     void GapPatch<dim>::add_part(const GapPatch                  &part,
                                  const std::vector<unsigned int> &places)
     {
+      if (part.area == 0 || part.nearest > reach)
+        return;
+      if (nearest > part.reach)
+        *this = GapPatch(normal_only, n_nodes);
+      if (part.nearest < nearest)
+        {
+          nearest = part.nearest;
+          reach   = part.reach;
+        }
       area += part.area;
       start_gap += part.area * part.start_gap;
       multiplier += part.area * part.multiplier;
+      normal += part.area * part.normal;
       for (unsigned int a = 0; a < part.n_nodes; ++a)
         {
           values[places[a]] += part.area * part.values[a];
@@ -120,6 +130,7 @@ namespace Impoint
     {
       start_gap /= area;
       multiplier /= area;
+      normal /= normal.norm();
       for (unsigned int a = 0; a < n_nodes; ++a)
         {
           values[a] /= area;
@@ -132,11 +143,12 @@ namespace Impoint
     template <int dim>
     void GapPatch<dim>::pack(std::vector<double> &numbers) const
     {
-      numbers.push_back(area);
+      numbers.insert(numbers.end(), {area, nearest, reach});
       for (unsigned int d = 0; d < dim; ++d)
         {
           numbers.push_back(start_gap[d]);
           numbers.push_back(multiplier[d]);
+          numbers.push_back(normal[d]);
         }
       for (unsigned int a = 0; a < n_nodes; ++a)
         if (normal_only)
@@ -150,11 +162,14 @@ namespace Impoint
     template <int dim>
     const double *GapPatch<dim>::unpack(const double *numbers)
     {
-      area = *numbers++;
+      area    = *numbers++;
+      nearest = *numbers++;
+      reach   = *numbers++;
       for (unsigned int d = 0; d < dim; ++d)
         {
           start_gap[d]  = *numbers++;
           multiplier[d] = *numbers++;
+          normal[d]     = *numbers++;
         }
       for (unsigned int a = 0; a < n_nodes; ++a)
         if (normal_only)

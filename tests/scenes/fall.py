@@ -14,6 +14,7 @@ QUADS = ("beyond/fall.prm", [], 0.1, 1000)
 TRIANGLES = ("beyond/fall.prm", ["Grid/Cells = triangles"], 0.1, 1000)
 SPLINES = ("beyond/fall.prm", ["Grid/Basis = quadratic spline"], 0.1, 1000)
 HEXES = ("beyond/fall-3d.prm", [], 0.25, 1000)
+TETS = ("beyond/fall-3d.prm", ["Grid/Cells = tetrahedra"], 0.25, 1000)
 
 
 def momenta(history, mass, speed):
@@ -30,7 +31,7 @@ def fall(cells, speed, travel, method, degrees):
     """Onto a floor at @p degrees to the grid, in steps of that part of a cell."""
     scene, settings, h, mass = cells
     step = travel * h / speed
-    velocity = f"0; {-speed}" + ("; 0" if cells is HEXES else "")
+    velocity = f"0; {-speed}" + ("; 0" if cells in (HEXES, TETS) else "")
     summary, history = rows(scene, [
         *settings, f"Grid/Rotation = {degrees}",
         f"Bodies/block/Initial velocity = {velocity}",
@@ -52,9 +53,9 @@ def fall(cells, speed, travel, method, degrees):
             what + ": the impulse is not the change of momentum": error < 1e-6,
             what + ": points pass the floor": depth < 0.05,
             # the ghost penalty of splines does not weaken what holds the wall's
-            # nodes before it is touched
+            # nodes before it is touched; tetrahedra share multipliers
             what + ": steps are halved":
-            cells is not SPLINES or summary["counts"]["halved steps"] == 0}
+            cells not in (SPLINES, TETS) or summary["counts"]["halved steps"] == 0}
 
 
 def short():
@@ -65,6 +66,8 @@ def short():
     yield SPLINES, 1, 0.05, METHODS[3], -20
     yield HEXES, 1, 0.5, METHODS[0], 23
     yield HEXES, 10, 0.1, METHODS[3], 23
+    yield TETS, 1, 0.2, METHODS[3], 23
+    yield TETS, 10, 0.5, METHODS[2], 0
 
 
 def long():
@@ -75,6 +78,7 @@ def long():
                     yield QUADS, speed, travel, method, degrees
                 yield TRIANGLES, speed, travel, method, -33
                 yield HEXES, speed, travel, method, 23
+                yield TETS, speed, travel, method, 23
 
 
 missed = [claim for arguments in {"short": short, "long": long}[sys.argv[1]]()

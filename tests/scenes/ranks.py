@@ -48,6 +48,10 @@ SCENES = {
                  "Boundaries/floor/Enforcement = lagrange multiplier"]),
     "friction": ("beyond/friction-block.prm",
                  ["Output/Pictures every = 0", "Time/End time = 0.1"]),
+    "shared friction": ("beyond/friction-block.prm",
+                        ["Output/Pictures every = 0", "Time/End time = 0.1",
+                         "Grid/Cells = triangles",
+                         "Boundaries/plane/Enforcement = lagrange multiplier"]),
     "kept grid": (HERE / "ranks_bar_3d.prm", ["Grid/Reset = never"]),
     # by conforming boundaries
     "held nodes": (HERE / "ranks_bar_3d.prm", HELD),

@@ -14,7 +14,9 @@ namespace Impoint
     /**
      * What the methods that act on a gap share: penalties and multipliers. The
      * gap is the total one, carried from step to step by the particles; a patch
-     * is one particle, all particles of a cell, or those of a link.
+     * is one particle, all particles of a cell, or those of a link. Each opens,
+     * sticks and slides as a whole: multipliers that are not independent
+     * (SharedConstraints) would open and close in turn for ever.
      *
      * A multiplier is found within a linear solve by lambda <- t (see
      * TractionLaw), whose fixed point is t = g / c, or g = 0 for a compliance
@@ -117,6 +119,8 @@ namespace Impoint
                        const unsigned int begin,
                        const unsigned int end) const;
 
+      void set_law(const unsigned int r, Patch &patch) const;
+
       /** A particle's own gap. */
       Patch alone(const unsigned int r, const unsigned int b) const;
 
@@ -164,7 +168,7 @@ namespace Impoint
       std::vector<char>      near;      // the same, at the start of the step
 
       // per particle: multiplier of the iterate; what the patch that it begins
-      // did last, and where the correction began
+      // did last, and where the correction began; after these, links' patches
       std::vector<Tensor<1, dim>>                  multiplier;
       mutable std::vector<typename Patch::Contact> contacts;
       std::vector<typename Patch::Contact>         first_contacts;
@@ -175,6 +179,7 @@ namespace Impoint
       std::vector<Patch>     link_patches; // with the multiplier now
       // per range, of the step
       std::vector<Tensor<1, dim>> shared_tractions, shared_gaps;
+      std::vector<double>         shared_reaches;
     };
   } // namespace Enforcement
 } // namespace Impoint

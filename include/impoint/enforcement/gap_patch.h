@@ -7,6 +7,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <limits>
 #include <vector>
 
 namespace Impoint
@@ -59,7 +60,8 @@ namespace Impoint
       Tensor<1, dim> total(const Tensor<1, dim> &traction) const;
 
       /** Adds @p part, whose nodes are at @p places of these: until all are
-       * there, sums weighted by areas. */
+       * there, sums weighted by areas. Parts that are farther away than the
+       * nearest one's reach do not belong to it. */
       void add_part(const GapPatch                  &part,
                     const std::vector<unsigned int> &places);
       void divide_by_area();
@@ -69,11 +71,13 @@ namespace Impoint
       void          pack(std::vector<double> &numbers) const;
       const double *unpack(const double *numbers);
 
-      bool           normal_only;
-      unsigned int   n_nodes;
-      unsigned int   begin = 0, end = 0; // particles
-      double         area  = 0;
-      double         reach = 0; // how far its particles are away
+      bool         normal_only;
+      unsigned int n_nodes;
+      unsigned int begin = 0, end = 0; // particles
+      double       area = 0;
+      // how far its nearest particle is away, and how far they all may be
+      double         nearest = std::numeric_limits<double>::max();
+      double         reach   = std::numeric_limits<double>::max();
       Tensor<1, dim> normal, start_gap, multiplier;
       TractionLaw    law;
 
