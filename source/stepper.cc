@@ -10,6 +10,7 @@
 #include <impoint/stepper.h>
 #include <impoint/terms/internal_force.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace Impoint
@@ -28,6 +29,7 @@ namespace Impoint
     , grid(file, scene.grid, comm)
     , basis(grid, file, scene.grid)
     , active(basis)
+    , hinges(grid)
     , points(with_particles ? place_bodies(file, scene, basis) :
                               without_points(file, scene, basis))
     , nearby_stiffness(active, *points)
@@ -88,8 +90,20 @@ namespace Impoint
           return system->find_links(start, end);
         },
         [&](const auto &candidates) {
-          return Enforcement::acting_cells(
+          const auto acting = Enforcement::acting_cells(
             methods, start, end, candidates, grid, *points, reached);
+          // In dynamics masses hold what hangs on a node, and splines reach
+          // farther.
+          if (scene.time.moves_after(now) || !basis.lines().empty())
+            return acting;
+          const auto &between = hinges.cells_between(points->cells());
+          std::vector<unsigned int> result;
+          std::set_union(acting.begin(),
+                         acting.end(),
+                         between.begin(),
+                         between.end(),
+                         std::back_inserter(result));
+          return result;
         });
       system->set_reached(reached);
     }

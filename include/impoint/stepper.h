@@ -2,6 +2,7 @@
 #define impoint_stepper_h
 
 #include <impoint/base/stored_pieces.h>
+#include <impoint/grid/hinges.h>
 #include <impoint/measurements/measurement.h>
 #include <impoint/scene.h>
 #include <impoint/solver/newton.h>
@@ -134,6 +135,7 @@ namespace Impoint
     BackgroundGrid<dim>                    grid;
     Basis<dim>                             basis;
     ActiveNodes<dim>                       active;
+    Hinges<dim>                            hinges;
     std::vector<BodyLoad<dim>>             body_loads;
     std::unique_ptr<MaterialPoints<dim>>   points;
     NearbyStiffness<dim>                   nearby_stiffness;

@@ -136,8 +136,9 @@ namespace Impoint
                    "pivot at the node at ("
                 << problem.points[*failed]
                 << "). A body without sufficient supports, a material that "
-                   "softens, or too large a step bring this about; so do cells "
-                   "of splines that a surface cuts ('Ghost penalty' in section "
+                   "softens, cells finer than the points are apart, or too "
+                   "large a step bring this about; so do cells of splines that "
+                   "a surface cuts ('Ghost penalty' in section "
                    "'Grid') and 'nitsche' (see 'Nitsche form').";
         throw StepFailed(message.str());
       });

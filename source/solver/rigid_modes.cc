@@ -149,7 +149,10 @@ namespace Impoint
               text << "the material around (" << centre << ") "
                    << name_of_mode<dim>({vectors[m].begin(), vectors[m].end()})
                    << ": no boundary holds it, and statics has no answer. Add "
-                      "a boundary, or set 'Kind = dynamic' in section 'Time'";
+                      "a boundary, or set 'Kind = dynamic' in section 'Time'. "
+                      "Where cells are finer than the points of a body are "
+                      "apart, it falls into parts: set more points, or coarser "
+                      "cells";
               throw RunFailed(text.str());
             }
       }

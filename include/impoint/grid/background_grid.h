@@ -116,6 +116,14 @@ namespace Impoint
     std::vector<Point<dim>>     vertices(const unsigned int c) const;
     std::vector<HalfSpace<dim>> faces(const unsigned int c) const;
 
+    /** The known cells beyond the faces of cell @p c; numbers that are no
+     * cell's at the grid's boundary, and where those beyond are finer. */
+    ArrayView<const unsigned int> neighbors_of(const unsigned int c) const
+    {
+      return ArrayView<const unsigned int>(&neighbors[std::size_t(c) * n_faces],
+                                           n_faces);
+    }
+
     /** Cells (owned and ghost) whose bounding box meets the given one, in
      * increasing order. */
     std::vector<unsigned int> cells_near(const Point<dim> &lower,
