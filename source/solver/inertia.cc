@@ -92,6 +92,7 @@ namespace Impoint
     std::fill(sums, sums + n * n_sums, 0.);
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
+        points.prefetch_after(p);
         const double *N     = points.support(p);
         const double *state = points.data(p);
         double        moving[n_sums];

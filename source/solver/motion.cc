@@ -92,6 +92,7 @@ namespace Impoint
       {
         for (unsigned int p = range.begin; p < range.end; ++p)
           {
+            points.prefetch_after(p);
             const double *N    = points.support(p);
             const auto    here = interpolate<m, n_static>(n, N, motion);
             displace(p, here.data());

@@ -247,6 +247,7 @@ namespace Impoint
     const bool keeps_ends = end_states != nullptr && end_states->are_kept();
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
+        points.prefetch_after(p);
         const double        *gradients = points.support(p) + n;
         const Tensor<2, dim> grad_u =
           displacement_gradient<dim>(n, system.u, gradients);
@@ -293,6 +294,7 @@ namespace Impoint
     const bool keeps_ends = end_states != nullptr && end_states->are_kept();
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
+        points.prefetch_after(p);
         const double *gradients = points.support(p) + n;
         const double  volume    = points.data(p)[points.slots().volume];
         respond(p,

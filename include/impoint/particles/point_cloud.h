@@ -93,6 +93,17 @@ namespace Impoint
       return states[p];
     }
 
+    /** Asks for the state of the particle that a loop comes to when it is done
+     * with a few more after @p p: particles that changed their cells lie
+     * anywhere in memory. */
+    void prefetch_after(const unsigned int p) const
+    {
+      constexpr unsigned int ahead = 6, line = 8; // particles, doubles
+      if (p + ahead < states.size())
+        for (unsigned int i = 0; i < property_layout.n_doubles(); i += line)
+          __builtin_prefetch(states[p + ahead] + i);
+    }
+
     types::particle_index id(const unsigned int p) const
     {
       return pool->get_id(handles[p]);
