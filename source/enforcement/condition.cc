@@ -98,10 +98,12 @@ namespace Impoint
   /** What the methods look at, each on its own. */
   void ConditionParameters::declare_factors(EntryHandler &prm)
   {
-    prm.add_parameter("Penalty factor",
-                      factor,
-                      "Penalty factor beta, in the unit below.",
-                      Patterns::Double(1e-300));
+    prm.add_parameter(
+      "Penalty factor",
+      factor,
+      "Penalty factor beta, in the unit below. The augmented Lagrangian "
+      "takes it for a whole cut cell and more for smaller pieces.",
+      Patterns::Double(1e-300));
     prm.add_choice(
       "Penalty unit",
       factor_is_absolute,

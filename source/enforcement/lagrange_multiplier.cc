@@ -50,7 +50,7 @@ namespace Impoint
                     this->unit(r);
       else
         law.gamma = best_factor * this->unit(r);
-      if (this->is_linear() && !user_chooses_factor)
+      if (this->is_linear())
         law.gamma = this->enlarge(law.gamma, r, area);
       return law;
     }
