@@ -226,19 +226,57 @@ namespace Impoint
 
 
 
+  namespace
+  {
+    /** Cells that hold points are never smaller than what these stand for,
+     * unless there are empty ones between. */
+    template <int dim>
+    std::vector<std::string>
+    doubts_about_holes(const MaterialPoints<dim> &points,
+                       const BackgroundGrid<dim> &grid)
+    {
+      constexpr double harmless = 0.1;
+      double           cells = 0, material = 0;
+      for (const auto &range : points.ranges())
+        {
+          cells += grid.volume(range.cell);
+          for (unsigned int p = range.begin; p < range.end; ++p)
+            material += points.data(p)[points.slots().volume];
+        }
+      material /= points.carried().thickness;
+      cells              = Utilities::MPI::sum(cells, grid.communicator());
+      material           = Utilities::MPI::sum(material, grid.communicator());
+      const double share = 1 - cells / material;
+      if (!(share > harmless))
+        return {};
+      std::ostringstream text;
+      text
+        << std::setprecision(2)
+        << "the grid's cells are finer than the points are apart: "
+        << 100 * share
+        << " % of the bodies or more lie in cells without points, which resist "
+           "nothing. Set more 'Points per direction', a finer mesh of the "
+           "body, or a coarser grid.";
+      return {text.str()};
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<std::string>
   doubts_about_points(const GridParameters      &parameters,
                       const MaterialPoints<dim> &points,
                       const Basis<dim>          &basis)
   {
+    std::vector<std::string> doubts = doubts_about_holes(points, basis.grid());
     // Emptier cells are the ghost penalty's.
     constexpr double       filled  = 0.3;
     constexpr unsigned int n_rigid = dim * (dim + 1) / 2;
     // Linear functions have hourglasses for this; of splines there is about one
     // a cell.
     if (parameters.basis != "quadratic")
-      return {};
+      return doubts;
     std::size_t n_cells = 0, n_starved = 0, wanted = 0;
     for (const auto &range : points.ranges())
       {
@@ -259,15 +297,16 @@ namespace Impoint
     n_starved           = Utilities::MPI::sum(n_starved, comm);
     wanted              = Utilities::MPI::max(wanted, comm);
     if (n_starved == 0)
-      return {};
-    return {
+      return doubts;
+    doubts.push_back(
       std::to_string(n_starved) + " of " + std::to_string(n_cells) +
       " cells that bodies fill have fewer points than a 'quadratic' basis "
       "needs (" +
       std::to_string(wanted) +
       "): some of its functions resist nothing, and steps may fail. Set "
       "more 'Points per direction', a finer mesh of the body, 'Points = "
-      "clipped', or 'Basis = linear'."};
+      "clipped', or 'Basis = linear'.");
+    return doubts;
   }
 
 

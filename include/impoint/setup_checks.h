@@ -26,9 +26,9 @@ namespace Impoint
                         const MaterialPoints<dim>    &points,
                         const BackgroundGrid<dim>    &grid);
 
-  /** What is doubtful about the number of points in the cells of a quadratic
-   * basis: fewer strains than the functions of a cell have, so that the matrix
-   * may be singular. Collective. */
+  /** What is doubtful about the number of points: cells between them that have
+   * none, and, in the cells of a quadratic basis, fewer strains than functions,
+   * so that the matrix may be singular. Collective. */
   template <int dim>
   std::vector<std::string>
   doubts_about_points(const GridParameters      &parameters,

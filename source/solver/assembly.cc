@@ -14,8 +14,8 @@ namespace Impoint
     : active(active)
     , points(points)
     , methods(methods)
+    , nearby_stiffness(active, points)
     , empty_cells(active,
-                  points.young() * points.carried().thickness,
                   points.small_strain() ||
                     (points.carried().dynamic && !points.carried().keeps_grid))
     , hourglass(active, points)
@@ -46,6 +46,7 @@ namespace Impoint
   std::size_t Assembly<dim>::find_starved_cells()
   {
     hourglass.reinit();
+    nearby_stiffness.reinit();
     return Utilities::MPI::sum(hourglass.cells().size(),
                                active.basis().grid().communicator());
   }
@@ -187,7 +188,10 @@ namespace Impoint
         else if (!ghost_penalty.holds(k))
           {
             CellSystem whole = since_start(k, system);
-            empty_cells.add(k, whole);
+            empty_cells.add(k,
+                            nearby_stiffness.young(active.cell(k)) *
+                              points.carried().thickness,
+                            whole);
             if (tangent_wanted && inertia != nullptr && in_contact[k])
               empty_cells.anchor(system);
           }

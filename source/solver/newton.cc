@@ -113,24 +113,34 @@ namespace Impoint
 
 
   /** One correction solves a linear step. A second one with the same matrix
-   * brings back the digits that a stiff boundary took from the material's. */
+   * brings back the digits that a stiff boundary took from the material's, or
+   * what the solver left. */
   template <int dim>
   void Newton<dim>::finish_linear_step(Vector &delta, Vector &u)
   {
     u += delta;
     u.update_ghost_values();
-    if (system.is_stiff())
+    double left = system.linear_residual(delta);
+    if (system.is_stiff() || left > parameters.tolerance)
       {
         history.push_back(system.evaluate(u, false));
         system.correct(false, u, delta);
         u += delta;
         u.update_ghost_values();
+        left = system.linear_residual(delta);
       }
     // reactions of held nodes are what the residual leaves there
     history.push_back(system.has_held_nodes() ? system.evaluate(u, false) :
-                                                system.linear_residual(delta));
+                                                left);
     if (!std::isfinite(history.back()))
       throw StepFailed("The linear system has no solution in finite numbers");
+    if (left > std::max(parameters.tolerance, system.round_off(u)))
+      {
+        std::ostringstream text;
+        text << "The linear system's solution leaves a relative residual of "
+             << left;
+        throw StepFailed(text.str());
+      }
   }
 
 

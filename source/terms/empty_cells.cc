@@ -8,11 +8,8 @@
 namespace Impoint
 {
   template <int dim>
-  EmptyCells<dim>::EmptyCells(const ActiveNodes<dim> &active,
-                              const double            young,
-                              const bool              linear)
+  EmptyCells<dim>::EmptyCells(const ActiveNodes<dim> &active, const bool linear)
     : active(active)
-    , young(young)
     , linear(linear)
   {}
 
@@ -116,7 +113,9 @@ namespace Impoint
 
 
   template <int dim>
-  void EmptyCells<dim>::add(const unsigned int k, CellSystem &system) const
+  void EmptyCells<dim>::add(const unsigned int k,
+                            const double       young,
+                            CellSystem        &system) const
   {
     for (const Gradients &point : points[k - active.n_material_cells()])
       add_point(point, young, system);

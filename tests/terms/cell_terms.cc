@@ -24,7 +24,7 @@ void test_large_strain(const TermScene<dim> &scene,
                        const Tensor<2, dim> &A,
                        const Tensor<1, dim> &a)
 {
-  EmptyCells<dim> empty(scene.active, scene.points->young(), false);
+  EmptyCells<dim> empty(scene.active, false);
   empty.reinit();
   double moment_error = 0, difference = 0;
   for (unsigned int k = scene.active.n_material_cells();
@@ -38,12 +38,12 @@ void test_large_strain(const TermScene<dim> &scene,
         {
           const double    factor = 1. + 0.1 * step;
           LinearCell<dim> other(scene, k, factor * A, factor * a);
-          empty.add(k, other.system);
+          empty.add(k, scene.points->young(), other.system);
           const double weight = (std::abs(step) == 1. ? 8. : -1.) / 1.2;
           for (unsigned int i = 0; i < n_unknowns; ++i)
             sum[i] += (step > 0 ? weight : -weight) * other.residual[i];
         }
-      empty.add(k, cell.system);
+      empty.add(k, scene.points->young(), cell.system);
       Tensor<2, dim> moment;
       for (unsigned int i = 0; i < n_unknowns; ++i)
         {
@@ -100,7 +100,7 @@ void test(const std::string &cells, const std::string &settings)
   print_bound("  force of mass", force_error);
   print_bound("  its matrix", mass_linearity);
 
-  EmptyCells<dim> empty(scene.active, scene.points->young(), true);
+  EmptyCells<dim> empty(scene.active, true);
   empty.reinit();
   const Tensor<2, dim> strain   = 0.5 * (A + transpose(A));
   const Tensor<2, dim> rotation = 0.5 * (A - transpose(A));
@@ -110,8 +110,8 @@ void test(const std::string &cells, const std::string &settings)
        ++k)
     {
       LinearCell<dim> moved(scene, k, rotation, a), strained(scene, k, A, a);
-      empty.add(k, moved.system);
-      empty.add(k, strained.system);
+      empty.add(k, scene.points->young(), moved.system);
+      empty.add(k, scene.points->young(), strained.system);
       double energy = -0.5 * scene.points->young() * strain.norm_square() *
                       scene.grid.volume(scene.active.cell(k));
       for (unsigned int i = 0; i < moved.residual.size(); ++i)

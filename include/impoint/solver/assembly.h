@@ -2,6 +2,7 @@
 #define impoint_solver_assembly_h
 
 #include <impoint/enforcement/enforcement.h>
+#include <impoint/particles/nearby_stiffness.h>
 #include <impoint/solver/inertia.h>
 #include <impoint/solver/linear_solver.h>
 #include <impoint/terms/consistent_mass.h>
@@ -127,6 +128,7 @@ namespace Impoint
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;
     Methods                                &methods;
+    NearbyStiffness<dim>                    nearby_stiffness;
     EmptyCells<dim>                         empty_cells;
     Hourglass<dim>                          hourglass;
     std::vector<char>                       in_contact; // per active cell

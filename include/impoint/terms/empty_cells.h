@@ -21,19 +21,18 @@ namespace Impoint
   class EmptyCells
   {
   public:
-    /** @p young: Young's modulus of the stiffest material [Pa], in 2D times the
-     * thickness. @p linear: for
-     * small strains, and in dynamics, where a step turns cells little and
-     * Newton's method finds its way sooner without their large strains. */
-    EmptyCells(const ActiveNodes<dim> &active,
-               const double            young,
-               const bool              linear);
+    /** @p linear: for small strains, and in dynamics, where a step turns cells
+     * little and Newton's method finds its way sooner without their large
+     * strains. */
+    EmptyCells(const ActiveNodes<dim> &active, const bool linear);
 
     /** After the set of active cells changed. */
     void reinit();
 
-    /** @p k: an active cell beyond the material cells. */
-    void add(const unsigned int k, CellSystem &system) const;
+    /** @p k: an active cell beyond the material cells; @p young: its Young's
+     * modulus [Pa], in 2D times the thickness. */
+    void
+    add(const unsigned int k, const double young, CellSystem &system) const;
 
     /** Lets the matrix of add(), and only that, resist rigid motions, too. A
      * cell that shares one node with the material turns about it at no cost
@@ -56,7 +55,6 @@ namespace Impoint
                    CellSystem      &system) const;
 
     const ActiveNodes<dim>             &active;
-    double                              young;
     bool                                linear;
     std::vector<std::vector<Gradients>> points; // per empty cell
   };
