@@ -291,7 +291,7 @@ namespace Impoint
     };
     refuse(constraint != Constraint::roller, {"Components"}, kind);
     refuse(!traction, {"Traction"}, kind);
-    refuse(traction, {"Value", "Rotation angle"}, kind);
+    refuse(traction, {"Value", "Rotation angle"}, kind + ": see 'Traction'");
     refuse(conforming || traction,
            {"Enforcement",
             "Penalty factor",

@@ -5,6 +5,7 @@
 #include <impoint/particles/seeding.h>
 
 #include <deal.II/base/function.h>
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/fe/fe_q.h>
@@ -12,36 +13,112 @@
 #include <deal.II/non_matching/quadrature_generator.h>
 
 #include <algorithm>
+#include <array>
 
 namespace Impoint
 {
   namespace
   {
-    /** The signed distance on the unit cell, in cell sizes: the cubic through
-     * its values there, whose derivatives are known. */
+    /** A quadrilateral or hexahedron: the unit cell's image under the functions
+     * that are linear along each of its edges. */
     template <int dim>
-    class CellDistance : public Function<dim>
+    class Box
     {
     public:
-      CellDistance()
+      static constexpr unsigned int n = GeometryInfo<dim>::vertices_per_cell;
+
+      explicit Box(const std::array<Point<dim>, n> &corners)
+        : corners(corners)
+      {}
+
+      Point<dim> place(const Point<dim> &xi) const
+      {
+        Point<dim> x;
+        for (unsigned int i = 0; i < n; ++i)
+          x += GeometryInfo<dim>::d_linear_shape_function(xi, i) *
+               Tensor<1, dim>(corners[i]);
+        return x;
+      }
+
+      /** Volume there by that of the unit cell. */
+      double stretch(const Point<dim> &xi) const
+      {
+        Tensor<2, dim> J;
+        for (unsigned int i = 0; i < n; ++i)
+          J += outer_product(
+            corners[i],
+            GeometryInfo<dim>::d_linear_shape_function_gradient(xi, i));
+        return std::abs(determinant(J));
+      }
+
+    private:
+      std::array<Point<dim>, n> corners;
+    };
+
+
+
+    /** What a cell is made of: itself, or, of a simplex, a box at each vertex,
+     * whose corners are the centres of all faces of the simplex (itself
+     * included) that the vertex belongs to. */
+    template <int dim>
+    std::vector<Box<dim>> boxes(const BackgroundGrid<dim> &grid,
+                                const unsigned int         c)
+    {
+      const auto                          cell = grid.cell(c);
+      std::array<Point<dim>, Box<dim>::n> corners;
+      if (!grid.simplicial())
+        {
+          for (unsigned int i = 0; i < corners.size(); ++i)
+            corners[i] = cell->vertex(i);
+          return {Box<dim>(corners)};
+        }
+      std::vector<Box<dim>> result;
+      for (unsigned int v = 0; v < dim + 1; ++v)
+        {
+          // corner i has the vertices after v that i has bits of
+          for (unsigned int i = 0; i < corners.size(); ++i)
+            {
+              corners[i]          = cell->vertex(v);
+              unsigned int n_used = 1;
+              for (unsigned int d = 0; d < dim; ++d)
+                if (i >> d & 1)
+                  {
+                    corners[i] += cell->vertex((v + 1 + d) % (dim + 1));
+                    ++n_used;
+                  }
+              corners[i] /= n_used;
+            }
+          result.emplace_back(corners);
+        }
+      return result;
+    }
+
+
+
+    /** The signed distance on a box, in sizes of its cell: the cubic through
+     * its values there, whose derivatives are known. */
+    template <int dim>
+    class BoxDistance : public Function<dim>
+    {
+    public:
+      BoxDistance()
         : cubic(3)
         , values(cubic.n_dofs_per_cell())
       {}
 
-      void reinit(const Expression<dim>     &distance,
-                  const BackgroundGrid<dim> &grid,
-                  const unsigned int         c)
+      void reinit(const Expression<dim> &distance,
+                  const Box<dim>        &box,
+                  const double           size)
       {
         for (unsigned int i = 0; i < values.size(); ++i)
           values[i] =
-            distance.value(grid.mapping().transform_unit_to_real_cell(
-                             grid.cell(c), cubic.get_unit_support_points()[i]),
+            distance.value(box.place(cubic.get_unit_support_points()[i]),
                            0.,
                            0) /
-            grid.size(c);
+            size;
       }
 
-      /** Whether the body is too far from the cell to reach into it. */
+      /** Whether the body is too far from the box to reach into it. */
       bool is_far() const
       {
         return *std::min_element(values.begin(), values.end()) > dim;
@@ -108,10 +185,9 @@ namespace Impoint
                        const BodyParameters      &body,
                        const BackgroundGrid<dim> &grid)
   {
-    const std::string        path = body.section + "/Signed distance";
-    const Expression<dim>    distance(file, path, 1);
-    CellDistance<dim>        in_cell;
-    const hp::QCollection<1> rules((QGauss<1>(body.rule)));
+    const Expression<dim> distance(file, body.section + "/Signed distance", 1);
+    BoxDistance<dim>      in_box;
+    const hp::QCollection<1>              rules((QGauss<1>(body.rule)));
     NonMatching::QuadratureGenerator<dim> generator(rules);
     const BoundingBox<dim> unit_cell = create_unit_bounding_box<dim>();
 
@@ -122,29 +198,27 @@ namespace Impoint
         {
           if (!grid.is_owned(c))
             continue;
-          if (grid.simplicial() || !grid.is_affine(c))
-            throw file.error(path,
-                             "a signed distance on a grid of simplices or "
-                             "distorted cells",
-                             "Make the grid of parallelograms (boxes), or give "
-                             "the body by an outline or a mesh.");
           check_side(file, body, distance, grid, c);
-          in_cell.reinit(distance, grid, c);
-          if (in_cell.is_far())
-            continue;
-          generator.generate(in_cell, unit_cell);
-          const auto &rule = generator.get_inside_quadrature();
-          for (unsigned int q = 0; q < rule.size(); ++q)
+          const std::size_t n_before = points.size();
+          for (const Box<dim> &box : boxes(grid, c))
             {
-              points.emplace_back();
-              points.back().x =
-                grid.mapping().transform_unit_to_real_cell(grid.cell(c),
-                                                           rule.point(q));
-              points.back().volume = rule.weight(q) * grid.volume(c);
-              points.back().cell   = c;
+              in_box.reinit(distance, box, grid.size(c));
+              if (in_box.is_far())
+                continue;
+              generator.generate(in_box, unit_cell);
+              const auto &rule = generator.get_inside_quadrature();
+              for (unsigned int q = 0; q < rule.size(); ++q)
+                {
+                  points.emplace_back();
+                  points.back().x = box.place(rule.point(q));
+                  points.back().volume =
+                    rule.weight(q) * box.stretch(rule.point(q));
+                  points.back().cell = c;
+                }
             }
-          if (rule.size() > 0)
-            groups.push_back({0, grid.cell(c)->id(), unsigned(rule.size())});
+          if (points.size() > n_before)
+            groups.push_back(
+              {0, grid.cell(c)->id(), unsigned(points.size() - n_before)});
         }
     });
     number_particles(groups, grid.communicator(), points);

@@ -124,7 +124,12 @@ namespace Impoint
     if (system.is_stiff() || left > parameters.tolerance)
       {
         history.push_back(system.evaluate(u, false));
-        system.correct(false, u, delta);
+        // the solve before took the residual from about one to this
+        const double enough = 0.1 * parameters.tolerance / left;
+        system.correct(false,
+                       u,
+                       delta,
+                       system.is_stiff() ? 1. : std::max(1., enough / left));
         u += delta;
         u.update_ghost_values();
         left = system.linear_residual(delta);

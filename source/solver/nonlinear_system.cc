@@ -235,11 +235,19 @@ namespace Impoint
    * with next to none: then the tangent is as good as before, but not positive
    * definite, and pivots have to be chosen. */
   template <int dim>
-  void NonlinearSystem<dim>::solve(const Vector &right, Vector &delta)
+  void NonlinearSystem<dim>::solve(const Vector &right,
+                                   const double  looser,
+                                   Vector       &delta)
   {
+    const auto attempt = [&]() {
+      solver.solve(problem,
+                   right,
+                   delta,
+                   std::max(looser, correction_looser()));
+    };
     try
       {
-        solver.solve(problem, right, delta, correction_looser());
+        attempt();
       }
     catch (const StepFailed &)
       {
@@ -249,7 +257,7 @@ namespace Impoint
         problem.symmetric = false;
         solver.new_pattern(active, problem);
         solver.new_matrix(problem);
-        solver.solve(problem, right, delta, correction_looser());
+        attempt();
       }
   }
 
@@ -269,7 +277,8 @@ namespace Impoint
   template <int dim>
   void NonlinearSystem<dim>::correct(const bool    first,
                                      const Vector &u,
-                                     Vector       &delta)
+                                     Vector       &delta,
+                                     const double  looser)
   {
     ScopedSeconds timer(seconds.solve);
     Vector        right(active.unknowns());
@@ -288,7 +297,7 @@ namespace Impoint
     for (const auto &method : methods)
       if (method->is_active() && method->contact_states())
         method->contact_states()->begin_correction();
-    solve(right, delta);
+    solve(right, looser, delta);
     delta.update_ghost_values();
     cut(held, first, delta);
 

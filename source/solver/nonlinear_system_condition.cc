@@ -64,7 +64,7 @@ namespace Impoint
     const auto divide = [&](const Vector &x, Vector &y) {
       right = x;
       right.update_ghost_values();
-      solve(right, y);
+      solve(right, 1., y);
     };
     const auto free_part = [&](Vector &x) {
       x.update_ghost_values();

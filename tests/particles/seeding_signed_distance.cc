@@ -35,10 +35,11 @@ template <int dim>
 void test(const std::string &name, const std::string &cells)
 {
   const std::string grid   = "Grid/Arguments = " + cells;
+  const std::string finer  = " & Grid/Refinements = ";
   const double      coarse = error_of<dim>(grid, "3"),
-               fine = error_of<dim>(grid + " & Grid/Refinements = 1", "3");
+               fine = error_of<dim>(grid + finer + (dim == 2 ? "2" : "1"), "3");
   print_bound(name + ", coarse", coarse, 2e-3);
-  print_bound(name + ", fine", fine, 2e-4);
+  print_bound(name + ", fine", fine, 2e-5);
   print_bound(name + ", 1 over the ratio", fine / coarse, 0.15);
 }
 
@@ -47,5 +48,12 @@ int main(int argc, char **argv)
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test<2>("disk", "9, 9 : -0.03, 0.01 : 2.2, 2.1");
   test<2>("disk, rotated", "12, 12 : 0, -1 : 3, 2 & Grid/Rotation = 20");
+  test<2>("disk, triangles",
+          "9, 9 : -0.03, 0.01 : 2.2, 2.1 & Grid/Cells = triangles");
+  test<2>("disk, distorted",
+          "9, 9 : -0.03, 0.01 : 2.2, 2.1 & Grid/Distortion = 0.2");
   test<3>("ball", "7, 7, 7 : -0.03, 0.01, 0.05 : 2.2, 2.1, 2.1");
+  test<3>("ball, tetrahedra",
+          "5, 5, 5 : -0.03, 0.01, 0.05 : 2.2, 2.1, 2.1 & "
+          "Grid/Cells = tetrahedra");
 }

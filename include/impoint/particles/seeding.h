@@ -50,7 +50,8 @@ namespace Impoint
 
   /** For bodies with a 'Signed distance': a rule of Saye for the part of each
    * cell where it is negative (SIAM J. Sci. Comput. 37, 2015), on the cubic
-   * through its values in the cell. Collective. */
+   * through its values in the cell, or in the dim + 1 quadrilaterals or
+   * hexahedra that make up a simplex. Collective. */
   template <int dim>
   std::vector<SeededPoint<dim>>
   seed_signed_distance(const ParameterFile       &file,

@@ -110,9 +110,13 @@ namespace Impoint
     /**
      * Newton's correction for the last tangent and residual, at @p u. @p first
      * adds the displacements that conforming boundaries prescribe. Multipliers
-     * of boundaries are brought up to date with it. Collective.
+     * of boundaries are brought up to date with it. @p looser is how much less
+     * than the linear solver's tolerance is enough. Collective.
      */
-    void correct(const bool first, const Vector &u, Vector &delta);
+    void correct(const bool    first,
+                 const Vector &u,
+                 Vector       &delta,
+                 const double  looser = 1.);
 
     /** After a correction was cut to the part @p fraction: cuts that of the
      * multipliers. */
@@ -185,7 +189,7 @@ namespace Impoint
     double force_scale_of_strain() const;
     void   prescribe(const bool first, Vector &delta);
     void   prepare_solver();
-    void   solve(const Vector &right, Vector &delta);
+    void   solve(const Vector &right, const double looser, Vector &delta);
     double correction_looser() const;
 
     const ActiveNodes<dim>                 &active;
