@@ -50,6 +50,7 @@ namespace Impoint
       body.complete(grid.degree());
     for (auto &boundary : boundaries)
       boundary.complete(grid.degree());
+    time.complete(grid.is_positive());
     check(file);
   }
 
@@ -168,13 +169,21 @@ namespace Impoint
       }
     time.check(file);
     check_reset(file);
-    if (time.is_dynamic() && grid.basis == "quadratic")
+    if (time.mass == MassMatrix::lumped && !grid.is_positive())
+      throw file.error("Time/Mass",
+                       "lumped masses of a 'quadratic' basis need not be "
+                       "positive",
+                       "Set Mass = consistent, Basis = quadratic spline on a "
+                       "Cartesian grid, or Basis = linear.");
+    // The vortex gains up to four times its energy, the vibrating bar loses two
+    // thirds, walls are passed.
+    if (time.is_dynamic() && !grid.is_positive() && !grid.is_kept())
       throw file.error("Grid/Basis",
-                       "a dynamic scene with a 'quadratic' basis: its lumped "
-                       "masses, with which velocities are projected, need not "
-                       "be positive",
-                       "Set Basis = quadratic spline on a Cartesian grid, or "
-                       "Basis = linear.");
+                       "a 'quadratic' basis in motion on a grid that is reset: "
+                       "where points leave the cells they were placed in, its "
+                       "masses need not be positive",
+                       "Set Reset = never, Basis = quadratic spline on a "
+                       "Cartesian grid, or Basis = linear.");
     for (const auto &measurement : measurements)
       measurement.check(file, dim);
     check_support(file);
@@ -284,9 +293,10 @@ namespace Impoint
               boundary.particles_per_segment,
               wanted);
     for (const auto &[entry, consistent] :
-         {std::pair<std::string, bool>("Mass", time.consistent_mass),
+         {std::pair<std::string, bool>("Mass",
+                                       time.mass == MassMatrix::consistent),
           {"Projection", time.consistent_projection}})
-      if (consistent && !grid.is_kept())
+      if (time.is_dynamic() && consistent && !grid.is_kept())
         doubts.push_back(
           "'" + entry +
           " = consistent' on a grid that is reset: where points "

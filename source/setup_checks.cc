@@ -273,11 +273,14 @@ namespace Impoint
     // Emptier cells are the ghost penalty's.
     constexpr double       filled  = 0.3;
     constexpr unsigned int n_rigid = dim * (dim + 1) / 2;
-    // Linear functions have hourglasses for this; of splines there is about one
-    // a cell.
-    if (parameters.basis != "quadratic")
+    // Linear functions have hourglasses for this. Of splines there is about one
+    // a cell: what one point of the cell does not see, others do, unless they
+    // are all at the same place of theirs.
+    const bool spline = basis.is_spline();
+    if (parameters.basis == "linear")
       return doubts;
-    std::size_t n_cells = 0, n_starved = 0, wanted = 0;
+    const double harmless = spline ? 0.5 : 0.;
+    std::size_t  n_cells = 0, n_starved = 0, wanted = 0;
     for (const auto &range : points.ranges())
       {
         double volume = 0;
@@ -287,7 +290,8 @@ namespace Impoint
                        basis.grid().volume(range.cell))
           continue;
         const unsigned int modes = basis.n_nodes_of(range.cell) * dim - n_rigid;
-        const unsigned int least = (modes + Voigt<dim>::n - 1) / Voigt<dim>::n;
+        const unsigned int least =
+          spline ? dim + 1 : (modes + Voigt<dim>::n - 1) / Voigt<dim>::n;
         ++n_cells;
         n_starved += range.end - range.begin < least ? 1 : 0;
         wanted = std::max<std::size_t>(wanted, least);
@@ -296,15 +300,14 @@ namespace Impoint
     n_cells             = Utilities::MPI::sum(n_cells, comm);
     n_starved           = Utilities::MPI::sum(n_starved, comm);
     wanted              = Utilities::MPI::max(wanted, comm);
-    if (n_starved == 0)
+    if (n_starved <= harmless * n_cells)
       return doubts;
     doubts.push_back(
       std::to_string(n_starved) + " of " + std::to_string(n_cells) +
-      " cells that bodies fill have fewer points than a 'quadratic' basis "
-      "needs (" +
-      std::to_string(wanted) +
-      "): some of its functions resist nothing, and steps may fail. Set "
-      "more 'Points per direction', a finer mesh of the body, 'Points = "
+      " cells that bodies fill have fewer points than a '" + parameters.basis +
+      "' basis needs (" + std::to_string(wanted) +
+      "): some of its functions resist nothing, and steps may fail or their "
+      "results be wrong. Set more 'Points per direction', a finer mesh of the body, 'Points = "
       "clipped', or 'Basis = linear'.");
     return doubts;
   }

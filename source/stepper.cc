@@ -144,7 +144,7 @@ namespace Impoint
                                   active,
                                   body_loads,
                                   end,
-                                  dynamic ? &inertia.nodal_masses() : nullptr),
+                                  dynamic ? inertia.sums_of_mass() : nullptr),
                        dynamic ? &inertia : nullptr,
                        scene.grid.is_kept() ? &kept_u : nullptr);
     // Newton's last residual is that of the solution, unless a step is linear.

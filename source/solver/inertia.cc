@@ -8,6 +8,25 @@
 
 namespace Impoint
 {
+  namespace
+  {
+    /** Turns values N of functions that may be negative into positive weights
+     * that sum to one: N_I^2 / sum_J N_J^2 (the diagonal of the consistent
+     * mass, scaled: E. Hinton, T. Rock, O. Zienkiewicz, A note on mass lumping
+     * and related processes in the finite element method, Earthq. Eng. Struct.
+     * Dyn. 4, 1976). */
+    void mean_weights(const double *N, const unsigned int n, double *weights)
+    {
+      double sum = 0;
+      for (unsigned int a = 0; a < n; ++a)
+        sum += weights[a] = N[a] * N[a];
+      for (unsigned int a = 0; a < n; ++a)
+        weights[a] /= sum;
+    }
+  } // namespace
+
+
+
   // Bossak's b = (rho - 1)/(rho + 1), with the beta and gamma that make the
   // scheme stable and of second order (W. Wood, M. Bossak, O. Zienkiewicz, An
   // alpha modification of Newmark's method, Int. J. Numer. Meth. Eng. 15,
@@ -20,7 +39,7 @@ namespace Impoint
              (parameters.spectral_radius + 1))
     , filter(parameters.filter)
     , filter_at_rest(parameters.filter_at_rest)
-    , is_consistent(parameters.consistent_mass)
+    , is_consistent(parameters.mass == MassMatrix::consistent)
     , projects_consistently(parameters.consistent_projection)
   {
     if (bossak < 0)
@@ -90,6 +109,7 @@ namespace Impoint
     constexpr unsigned int n_sums = 2 * dim + 1;
     double                 sums[array_size<n_static> * n_sums];
     std::fill(sums, sums + n * n_sums, 0.);
+    double weights[array_size<n_static>];
     for (unsigned int p = range.begin; p < range.end; ++p)
       {
         points.prefetch_after(p);
@@ -97,13 +117,24 @@ namespace Impoint
         const double *state = points.data(p);
         double        moving[n_sums];
         moving[0] = state[slots.mass];
+        // the least squares' fit asks for moments with the functions themselves
+        const double *of_mass = N;
+        if (weighted)
+          {
+            mean_weights(N, n, weights);
+            of_mass = weights;
+            N       = projects_consistently ? N : weights;
+          }
         for (unsigned int d = 0; d < dim; ++d)
           {
             moving[1 + d]       = moving[0] * state[slots.v + d];
             moving[1 + dim + d] = moving[0] * state[slots.a + d];
           }
-        for (unsigned int s = 0; s < n_sums; ++s)
 #pragma GCC unroll 1 // for vector instructions
+        for (unsigned int a = 0; a < n; ++a)
+          sums[a] += of_mass[a] * moving[0];
+        for (unsigned int s = 1; s < n_sums; ++s)
+#pragma GCC unroll 1
           for (unsigned int a = 0; a < n; ++a)
             sums[s * n + a] += N[a] * moving[s];
       }
@@ -128,7 +159,8 @@ namespace Impoint
                              const GhostPenalty<dim>   &ghost_penalty,
                              const double               time_step)
   {
-    dt = time_step;
+    dt       = time_step;
+    weighted = !active.basis().is_positive();
     masses.reinit(active.scalars());
     velocities.reinit(active.unknowns());
     accelerations.reinit(active.unknowns());

@@ -61,10 +61,24 @@ namespace Impoint
       "grid gives points in sparse cells unseen velocities for ever; 0: as "
       "'Velocity filter'.",
       Patterns::Double(0));
-    prm.add_choice("Mass",
-                   consistent_mass,
-                   "Mass matrix of the nodes.",
-                   {{"lumped", false}, {"consistent", true}});
+    declare_masses(file);
+    prm.leave_subsection();
+  }
+
+
+
+  void TimeParameters::declare_masses(ParameterFile &file)
+  {
+    auto &prm = file.handler();
+    prm.add_choice(
+      "Mass",
+      mass,
+      "Mass matrix of the nodes. automatic: lumped, but consistent "
+      "with a 'quadratic' basis, whose lumped masses need not be "
+      "positive.",
+      {{"automatic", MassMatrix::automatic},
+       {"lumped", MassMatrix::lumped},
+       {"consistent", MassMatrix::consistent}});
     prm.add_choice(
       "Projection",
       consistent_projection,
@@ -80,7 +94,14 @@ namespace Impoint
                    {{"equilibrium", InitialAcceleration::equilibrium},
                     {"zero", InitialAcceleration::zero},
                     {"expression", InitialAcceleration::expression}});
-    prm.leave_subsection();
+  }
+
+
+
+  void TimeParameters::complete(const bool positive)
+  {
+    if (mass == MassMatrix::automatic)
+      mass = positive ? MassMatrix::lumped : MassMatrix::consistent;
   }
 
 

@@ -108,9 +108,10 @@ class Tuned(Cantilever):
     """On the fewest functions: the beam's long sides along the grid, cells of 1/n of its height, twice as long."""
     title = "P4.1 cantilever, grid along the sides"
     files = {"a": "penalty/4.1-cantilever.prm"}
-    levels = range(6)
-    ways = [Way(*way, "nitsche") for way in (LINEAR_CLIPPED, SPLINE, SPLINE_3, ("cubic spline", "clipped", 3), CUBIC)]
-    cells = ((1, 1), (1, 2), (2, 1), (2, 2), (3, 2), (4, 2))     # over the height; length over height of a cell
+    levels = range(8)
+    ways = (ways([LINEAR_CLIPPED], TWO)
+            + ways([SPLINE, SPLINE_3, ("cubic spline", "clipped", 3), CUBIC], ["nitsche"], finest=5))
+    cells = ((1, 1), (1, 2), (2, 1), (2, 2), (3, 2), (4, 2), (10, 1), (20, 1))  # over the height; length over height
 
     def settings(self, way, level):
         n, aspect = self.cells[level]
@@ -239,7 +240,7 @@ class Vortex(Scene):
     results = ["displacement"]
     levels = range(3)
     ways = [Way(*basis, "none", reset=reset) for reset in ("never", "every step")
-            for basis in (LINEAR_CLIPPED, SPLINE_3, CUBIC)]
+            for basis in (LINEAR_CLIPPED, SPLINE_3, CUBIC)] + [Way(*ELEMENT, "none", reset="never")]
 
     def settings(self, way, level):
         return ["Grid/Refinements = %d" % level] + way_settings(way, "ring", [])

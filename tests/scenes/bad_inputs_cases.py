@@ -154,6 +154,14 @@ COMMANDS = [
         "Boundaries/clamp/Enforcement = nitsche",
         "Boundaries/clamp/Nitsche form = symmetric") for word in ("--set", entry)]],
      "symmetric form.*plastic material.*Nitsche form = incomplete"),
+    ([SCENE, *[word for entry in (
+        "Grid/Basis = quadratic", "Time/Kind = dynamic",
+        "Time/Mass = lumped") for word in ("--set", entry)]],
+     "lumped masses of a 'quadratic' basis.*Mass = consistent"),
+    ([SCENE, *[word for entry in (
+        "Grid/Basis = quadratic", "Time/Kind = dynamic",
+        "Grid/Reset = every step") for word in ("--set", entry)]],
+     "'quadratic' basis in motion on a grid that is reset.*Reset = never"),
     ([SCENE, "--check", "--help"], "exclude each other"),
     ([SCENE, "--output", "unreadable.msh"], "unreadable.msh' is a file"),
     ([SCENE, "--output", "/proc/impoint"], "/proc/impoint' cannot be"),

@@ -60,6 +60,9 @@ SCENES = {
     "held along slopes": ("beyond/kratos-slip.prm",
                           ["Time/End time = 0.2", "Output/Pictures every = 0"]),
     "kept grid, dynamic": ("beyond/generalised-vortex.prm", VORTEX),
+    "quadratic triangles, dynamic": ("beyond/generalised-vortex.prm", [
+        *VORTEX, "Grid/Basis = quadratic", "Grid/Cells = triangles",
+        "Time/Projection = lumped"]),
 }
 for method in ("augmented Lagrangian", "lagrange multiplier", "implicit boundary",
                "nitsche"):

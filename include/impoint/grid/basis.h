@@ -136,6 +136,13 @@ namespace Impoint
       return kind.find("spline") != std::string::npos;
     }
 
+    /** Whether no function is negative anywhere: then a node's sum of N_I
+     * times masses is a mass. */
+    bool is_positive() const
+    {
+      return kind != "quadratic";
+    }
+
     /** Highest power of one coordinate. */
     unsigned int degree() const
     {

@@ -72,6 +72,12 @@ namespace Impoint
       return basis == "linear" ? 1 : (basis == "cubic spline" ? 3 : 2);
     }
 
+    /** Whether no function is negative anywhere. */
+    bool is_positive() const
+    {
+      return basis != "quadratic";
+    }
+
     double ghost_penalty = -1; // entry; below 0: automatic
 
     /** Factor of Young's modulus; 0: no ghost penalty. */

@@ -119,9 +119,10 @@ namespace Impoint
     {
       return masses.local_element(i);
     }
-    const Vector &nodal_masses() const
+    /** The nodes' sums of m_p N_I, if that is what their masses are. */
+    const Vector *sums_of_mass() const
     {
-      return masses;
+      return weighted ? nullptr : &masses;
     }
 
   private:
@@ -141,6 +142,7 @@ namespace Impoint
     bool   at_rest = false;
     bool   is_consistent, projects_consistently;
     bool   has_carried = false; // from the last step of a kept grid
+    bool   weighted    = false; // by mean_weights(): functions may be negative
     double dt          = 1;
     Vector masses, velocities, accelerations, seen_velocities;
   };
