@@ -136,8 +136,7 @@ namespace Impoint
     constexpr double dependent = 1e-10;
     before                     = get();
     Multipliers present        = before;
-    Vector      place(u), forces, total;
-    total.reinit(u);
+    Vector      place(u), forces, total(u.get_partitioner());
     place += delta;
     place.update_ghost_values();
     Multipliers            step = update(place, forces);
@@ -146,6 +145,14 @@ namespace Impoint
     double                 rest   = forces.l2_norm();
     largest                       = std::max({largest, load, rest});
     const double enough           = exact ? 0. : coarse * reference;
+    // Directions that lessen next to nothing may be long, and what their
+    // displacements lack in accuracy with them: they are taken back at the end.
+    struct
+    {
+      double      rest;
+      Multipliers multipliers;
+      Vector      delta, place, total;
+    } paid = {rest, present, delta, place, total};
     while (directions.size() < max_solutions && rest > enough &&
            rest > tolerance * largest)
       {
@@ -171,11 +178,20 @@ namespace Impoint
 
         const double last = rest;
         rest              = forces.l2_norm();
-        largest           = std::max(largest, total.l2_norm());
-        n_idle            = rest > 0.999 * last ? n_idle + 1 : 0;
+        if (rest <= falls * paid.rest)
+          paid = {rest, present, delta, place, total};
+        largest = std::max(largest, total.l2_norm());
+        n_idle  = rest > 0.999 * last ? n_idle + 1 : 0;
         if (n_idle == most_idle ||
             (rest > falls * last && rest <= small * round_off))
           break;
+      }
+    if (rest > std::max(enough, falls * paid.rest))
+      {
+        present = paid.multipliers;
+        delta   = paid.delta;
+        place   = paid.place;
+        total   = paid.total;
       }
     set(present);
     if (std::any_of(methods.begin(), methods.end(), [](const auto &method) {
