@@ -120,7 +120,8 @@ namespace Impoint
     for (const auto &measurement : measurements)
       measurement->save_or_load(archive);
     pictures.save_or_load(archive);
-    archive &run_record.warnings &pictured_step &told_of_lost_load;
+    archive                                       &run_record
+      .warnings &pictured_step &told_of_lost_load &told_of_round_off;
   }
 
 
@@ -165,7 +166,29 @@ namespace Impoint
   {
     for (const auto &measurement : measurements)
       measurement->end_step(state);
+    warn_of_round_off(state.residuals.back());
     record(state, u);
+  }
+
+
+
+  /** Steps whose residual is round-off end, however large it is. */
+  template <int dim>
+  void Report<dim>::warn_of_round_off(const double residual)
+  {
+    constexpr double small = 1e-6;
+    if (told_of_round_off ||
+        residual <= std::max(small, scene.newton.tolerance))
+      return;
+    told_of_round_off = true;
+    std::ostringstream text;
+    text << std::setprecision(2) << "step " << counters.steps
+         << " leaves forces out of balance by " << residual
+         << " of themselves: no digits are left where something much stiffer "
+            "than the rest moves, a boundary or a body. Set a smaller 'Penalty "
+            "factor', 'Enforcement = augmented Lagrangian' or 'nitsche', or "
+            "bodies that differ less.";
+    warn(text.str());
   }
 
 

@@ -68,6 +68,7 @@ namespace Impoint
     void end_step(const State &state, const Vector &u) override;
 
   private:
+    void warn_of_round_off(const double residual);
     void record(const State &state, const Vector &u);
     void describe(const State &state, const std::string &solver);
 
@@ -87,6 +88,7 @@ namespace Impoint
     std::size_t       linear_iterations_before = 0; // the last step
     std::size_t       pictured_step            = 0; // the last one
     std::vector<char> told_of_lost_load;            // per method
+    bool              told_of_round_off = false;
   };
 } // namespace Impoint
 

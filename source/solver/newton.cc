@@ -139,9 +139,11 @@ namespace Impoint
         u.update_ghost_values();
         left = system.linear_residual(delta);
       }
-    // reactions of held nodes are what the residual leaves there
-    history.push_back(system.has_held_nodes() ? system.evaluate(u, false) :
-                                                left);
+    // Reactions of held nodes are what the residual leaves there; and only the
+    // residual shows what sums of stiff boundaries' forces lose.
+    history.push_back(system.has_held_nodes() || system.may_lose_digits(u) ?
+                        system.evaluate(u, false) :
+                        left);
     if (!std::isfinite(history.back()))
       throw StepFailed("The linear system has no solution in finite numbers");
     if (left > std::max(parameters.tolerance, round_off))

@@ -120,6 +120,16 @@ namespace Impoint
 
 
   template <int dim>
+  bool NonlinearSystem<dim>::may_lose_digits(const Vector &u) const
+  {
+    constexpr double harmless = 1e-6;
+    return round_off_of_forces(u, Vector(u.get_partitioner())) >
+           harmless * external.l2_norm();
+  }
+
+
+
+  template <int dim>
   double NonlinearSystem<dim>::linear_residual(const Vector &delta) const
   {
     // The matrix is without held unknowns; so is the residual.

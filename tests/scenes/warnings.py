@@ -62,7 +62,32 @@ def check_reference():
            len(summary["warnings"]) == 1, str(summary))
 
 
+def check_round_off():
+    """Forces that a stiff body's motion leaves no digits of."""
+    scene = Path(__file__).with_name("round_off.prm")
+    for model in ("linear elastic", "Hencky"):
+        for stiff in (1e9, 1e14):
+            settings = ["Output/Verbosity = normal"]
+            for body in ("soft", "stiff"):
+                settings.append(f"Bodies/{body}/Material/Model = {model}")
+            settings.append(f"Bodies/stiff/Material/Young's modulus = {stiff}")
+            if stiff > 1e9:
+                expect_warning(f"round-off, {model}", "leaves forces out of balance",
+                               scene, settings, check=False)
+            else:
+                said = said_by(scene, settings, check=False)
+                expect("Warning" not in said, said)
+            results = driver.json.loads(Path("out/summary.json").read_text())["results"]
+            pull, hold = (results[f"{name} F_x"]["value"] for name in ("pull", "hold"))
+            with open("out/history.csv") as file:
+                residual = float(list(csv.DictReader(file))[-1]["residual"])
+            expect(abs(pull + hold) <= 2 * residual * abs(pull) + 1e-9,
+                   f"{model}: {pull} and {hold}, but a residual of {residual}")
+            expect((residual > 1e-6) == (stiff > 1e9), f"{residual}")
+
+
 def main():
+    check_round_off()
     for scene in (BAR, BAR_3D):
         expect("Warning" not in said_by(scene, []), f"{scene} is all right")
     expect_warning("a line that ends outside of the grid",

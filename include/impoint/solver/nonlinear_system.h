@@ -104,6 +104,10 @@ namespace Impoint
     /** [N], of the residual at the displacements u + delta. Collective. */
     double round_off_of_forces(const Vector &u, const Vector &delta) const;
 
+    /** Whether round-off of the forces at @p u can be more than a millionth of
+     * the loads. Collective. */
+    bool may_lose_digits(const Vector &u) const;
+
     /** What a place, at the size of a cell, cannot tell from none [m]. */
     double smallest_displacement() const;
 
