@@ -176,7 +176,7 @@ namespace Impoint
   template <int dim>
   void Report<dim>::warn_of_round_off(const double residual)
   {
-    constexpr double small = 1e-6;
+    constexpr double small = 1e-3;
     if (told_of_round_off ||
         residual <= std::max(small, scene.newton.tolerance))
       return;

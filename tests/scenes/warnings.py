@@ -66,7 +66,7 @@ def check_round_off():
     """Forces that a stiff body's motion leaves no digits of."""
     scene = Path(__file__).with_name("round_off.prm")
     for model in ("linear elastic", "Hencky"):
-        for stiff in (1e9, 1e14):
+        for stiff in (1e9, 1e15):
             settings = ["Output/Verbosity = normal"]
             for body in ("soft", "stiff"):
                 settings.append(f"Bodies/{body}/Material/Model = {model}")
@@ -83,7 +83,7 @@ def check_round_off():
                 residual = float(list(csv.DictReader(file))[-1]["residual"])
             expect(abs(pull + hold) <= 2 * residual * abs(pull) + 1e-9,
                    f"{model}: {pull} and {hold}, but a residual of {residual}")
-            expect((residual > 1e-6) == (stiff > 1e9), f"{residual}")
+            expect((residual > 1e-3) == (stiff > 1e9), f"{residual}")
 
 
 def main():
