@@ -175,8 +175,8 @@ namespace Impoint
                        "positive",
                        "Set Mass = consistent, Basis = quadratic spline on a "
                        "Cartesian grid, or Basis = linear.");
-    // The vortex gains up to four times its energy, the vibrating bar loses two
-    // thirds, walls are passed.
+    // The vortex would gain up to four times its energy, the vibrating bar lose
+    // two thirds.
     if (time.is_dynamic() && !grid.is_positive() && !grid.is_kept())
       throw file.error("Grid/Basis",
                        "a 'quadratic' basis in motion on a grid that is reset: "

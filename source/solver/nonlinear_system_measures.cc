@@ -123,8 +123,11 @@ namespace Impoint
   bool NonlinearSystem<dim>::may_lose_digits(const Vector &u) const
   {
     constexpr double harmless = 1e-6;
+    const double     loads =
+      std::max(external.l2_norm(),
+               inertia == nullptr ? 0. : assembly.inertia_norm(u));
     return round_off_of_forces(u, Vector(u.get_partitioner())) >
-           harmless * external.l2_norm();
+           harmless * loads;
   }
 
 

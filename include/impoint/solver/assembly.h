@@ -97,6 +97,10 @@ namespace Impoint
      * changes in the residual. Collective. */
     void update_multipliers(const Vector &u, Vector &change);
 
+    /** [N], of the inertia force at @p u after the last assemble() had inertia.
+     * Collective. */
+    double inertia_norm(const Vector &u) const;
+
   private:
     void assemble_material(const Vector &u,
                            const bool    tangent_wanted,
@@ -120,10 +124,9 @@ namespace Impoint
 
     CellSystem since_start(const unsigned int k, const CellSystem &system);
 
-    double inertia_norm(const Vector &u) const;
-    void   add_inertia(const Vector &u, const bool tangent_wanted);
-    void   scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
-    void   scatter_residual(const unsigned int k);
+    void add_inertia(const Vector &u, const bool tangent_wanted);
+    void scatter(const unsigned int k, BlockMatrix<dim> &matrix) const;
+    void scatter_residual(const unsigned int k);
 
     const ActiveNodes<dim>                 &active;
     const MaterialPoints<dim>              &points;
