@@ -16,6 +16,7 @@ namespace Impoint
             last_step,
             forces,
             newton->residuals(),
+            system->strain_of_forces(),
             totals,
             [this]() { return system->condition_numbers(); }};
   }

@@ -156,17 +156,20 @@ namespace Impoint
   {
     CellSystem         system;
     unsigned int       next_starved = 0;
+    const bool         with_mass    = has_mass_matrix(part);
     const unsigned int first =
-      part == Part::constraints ? active.n_material_cells() : 0;
+      part == Part::constraints && !with_mass ? active.n_material_cells() : 0;
     for (unsigned int k = first; k < active.n_cells(); ++k)
       {
         gather(k, u, cell_u);
         begin_cell(k, tangent_wanted, system);
         if (k < active.n_material_cells())
           {
-            for (const auto &term : terms)
-              term->add(k, system);
-            if (next_starved < hourglass.cells().size() &&
+            if (part != Part::constraints)
+              for (const auto &term : terms)
+                term->add(k, system);
+            if (part != Part::constraints &&
+                next_starved < hourglass.cells().size() &&
                 hourglass.cells()[next_starved] == k)
               {
                 if (inertia == nullptr || in_contact[k])
@@ -176,7 +179,7 @@ namespace Impoint
                   }
                 ++next_starved;
               }
-            if (inertia != nullptr && inertia->consistent())
+            if (with_mass)
               {
                 accelerations_of(k);
                 consistent_mass.add(k,
@@ -199,21 +202,6 @@ namespace Impoint
         if (tangent_wanted)
           scatter(k, problem->matrix);
       }
-  }
-
-
-
-  /** Those of group k that balance forces, at its cell_u. */
-  template <int dim>
-  void Assembly<dim>::accelerations_of(const unsigned int k)
-  {
-    const auto nodes = active.nodes(k);
-    cell_accelerations.resize(nodes.size() * dim);
-    for (unsigned int a = 0; a < nodes.size(); ++a)
-      for (unsigned int d = 0; d < dim; ++d)
-        cell_accelerations[a * dim + d] =
-          inertia->balanced_acceleration(nodes[a] * dim + d,
-                                         cell_u[a * dim + d]);
   }
 
 
@@ -283,51 +271,6 @@ namespace Impoint
 
 
 
-  /** Norm of the inertia force, which balances all others in free flight; of
-   * lumped masses, whichever the balance has. */
-  template <int dim>
-  double Assembly<dim>::inertia_norm(const Vector &u) const
-  {
-    double norm_square = 0;
-    for (unsigned int i = 0; i < active.n_owned_nodes() * dim; ++i)
-      {
-        const double force =
-          inertia->mass(i / dim) *
-          inertia->balanced_acceleration(i, u.local_element(i));
-        norm_square += force * force;
-      }
-    return std::sqrt(
-      Utilities::MPI::sum(norm_square, active.basis().grid().communicator()));
-  }
-
-
-
-  /** Lumped mass: a diagonal that each node's owner adds. */
-  template <int dim>
-  void Assembly<dim>::add_inertia(const Vector &u, const bool tangent_wanted)
-  {
-    for (unsigned int i = 0; i < active.n_owned_nodes(); ++i)
-      {
-        const double mass = inertia->mass(i);
-        for (unsigned int d = 0; d < dim; ++d)
-          rest.local_element(i * dim + d) +=
-            mass * inertia->balanced_acceleration(i * dim + d,
-                                                  u.local_element(i * dim + d));
-        if (tangent_wanted)
-          {
-            const auto row   = problem->pattern.columns.begin();
-            const auto begin = row + problem->pattern.row_start[i];
-            const auto end   = row + problem->pattern.row_start[i + 1];
-            double    *block = problem->matrix.values.data() +
-                            (std::lower_bound(begin, end, i) - row) * dim * dim;
-            for (unsigned int d = 0; d < dim; ++d)
-              block[d * dim + d] += inertia->alpha() * mass;
-          }
-      }
-  }
-
-
-
   template <int dim>
   double Assembly<dim>::assemble(const Vector       &u,
                                  const Part          part,
@@ -365,8 +308,7 @@ namespace Impoint
     double scale = external.l2_norm();
     if (inertia != nullptr)
       scale = std::max(scale, inertia_norm(u));
-    if (inertia != nullptr &&
-        (part == Part::constraints || !inertia->consistent()))
+    if (inertia != nullptr && !has_mass_matrix(part))
       add_inertia(u, tangent_wanted);
     rest.compress(VectorOperation::add);
     scale = std::max(scale, rest.l2_norm());

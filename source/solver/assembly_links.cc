@@ -21,16 +21,22 @@ namespace Impoint
                                              const bool    tangent_wanted,
                                              const Part    part)
   {
+    const bool with_mass = has_mass_matrix(part);
     CellSystem system;
     for (unsigned int l = 0; l < ghost_penalty.n_links(); ++l)
       {
-        if (part == Part::constraints && !ghost_penalty.at_empty(l))
+        const bool holds =
+          part != Part::constraints || ghost_penalty.at_empty(l);
+        if (!holds && !with_mass)
           continue;
         const unsigned int k = ghost_penalty.group(l);
         gather(k, u, cell_u);
         begin_cell(k, tangent_wanted, system);
-        CellSystem whole = since_start(k, system);
-        ghost_penalty.add(l, whole);
+        if (holds)
+          {
+            CellSystem whole = since_start(k, system);
+            ghost_penalty.add(l, whole);
+          }
         if (inertia != nullptr && inertia->consistent())
           {
             accelerations_of(k);

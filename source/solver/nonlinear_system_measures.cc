@@ -83,6 +83,14 @@ namespace Impoint
 
 
   template <int dim>
+  double NonlinearSystem<dim>::strain_of_forces() const
+  {
+    return force_scale() / force_scale_of_strain();
+  }
+
+
+
+  template <int dim>
   double NonlinearSystem<dim>::smallest_displacement() const
   {
     return machine_precision * active.basis().grid().smallest_size();

@@ -13,6 +13,7 @@ from driver import expect, run_scene
 from ranks import COARSE
 
 SHIFTED = Path(__file__).with_name("kept_grid_shifted.prm")
+FLIGHT = Path(__file__).with_name("kept_grid_flight.prm")
 QUIET = ["Output/Pictures every = 0"]
 REFINEMENTS = int(sys.argv[1]) if len(sys.argv) > 1 else 1
 METHODS = ("penalty", "projected penalty", "augmented Lagrangian",
@@ -119,6 +120,18 @@ def check_steps():
         expect(abs(found[1] / found[0] - 1) < 1e-9, f"{title} depends on steps")
 
 
+def check_flight():
+    """A disk under its weight, thrown: its path is exact, and it stays as it
+    was."""
+    for cells in ("as made", "triangles", "8 triangles"):
+        results = run_scene(FLIGHT, "run", [f"Grid/Cells = {cells}"])["results"]
+        strain = results["energy strain"]["value"] / results["energy kinetic"]["value"]
+        print(f"flight, quadratic, cells {cells}: path "
+              f"{results['centre path']['error']:.1e} m off, strain energy {strain:.1e}")
+        expect(results["centre path"]["error"] < 1e-8 and strain < 1e-8, cells)
+
+
+check_flight()
 check_moment()
 check_steps()
 check_cantilever()

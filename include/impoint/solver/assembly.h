@@ -120,6 +120,7 @@ namespace Impoint
     void assemble_ghost_penalty(const Vector &u,
                                 const bool    tangent_wanted,
                                 const Part    part);
+    bool has_mass_matrix(const Part part) const;
     void accelerations_of(const unsigned int k);
 
     CellSystem since_start(const unsigned int k, const CellSystem &system);

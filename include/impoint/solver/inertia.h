@@ -119,6 +119,13 @@ namespace Impoint
     {
       return masses.local_element(i);
     }
+    /** Whether a diagonal of the nodes' masses, the sums of m_p N_I, gives even
+     * forces per mass even accelerations. */
+    bool can_lump() const
+    {
+      return !weighted;
+    }
+
     /** The nodes' sums of m_p N_I, if that is what their masses are. */
     const Vector *sums_of_mass() const
     {

@@ -101,11 +101,11 @@ namespace Impoint
      */
     double round_off(const Vector &u) const;
 
-    /** [N], of the residual at the displacements u + delta. Collective. */
-    double round_off_of_forces(const Vector &u, const Vector &delta) const;
+    /** Forces in the last balance, by those of a strain of one in a cell. */
+    double strain_of_forces() const;
 
-    /** Whether round-off of the forces at @p u can be more than a millionth of
-     * the loads. Collective. */
+    /** Whether round-off at @p u can be a millionth of the loads. Collective.
+     */
     bool may_lose_digits(const Vector &u) const;
 
     /** What a place, at the size of a cell, cannot tell from none [m]. */
@@ -114,16 +114,15 @@ namespace Impoint
     /**
      * Newton's correction for the last tangent and residual, at @p u. @p first
      * adds the displacements that conforming boundaries prescribe. Multipliers
-     * of boundaries are brought up to date with it. @p looser is how much less
-     * than the linear solver's tolerance is enough. Collective.
+     * of boundaries are brought up to date with it. @p looser tolerances are
+     * enough. Collective.
      */
     void correct(const bool    first,
                  const Vector &u,
                  Vector       &delta,
                  const double  looser = 1.);
 
-    /** After a correction was cut to the part @p fraction: cuts that of the
-     * multipliers. */
+    /** Cuts the last correction of multipliers to the part @p fraction. */
     void cut_multipliers(const double fraction);
 
     /** Whether contact or friction make kinks in the forces. */
@@ -191,6 +190,8 @@ namespace Impoint
     bool   moderate_wanted() const; // whether the solver will use it
     double force_scale() const;
     double force_scale_of_strain() const;
+    // [N], of the residual at the displacements u + delta; collective
+    double round_off_of_forces(const Vector &u, const Vector &delta) const;
     void   prescribe(const bool first, Vector &delta);
     void   prepare_solver();
     void   solve(const Vector &right, const double looser, Vector &delta);
