@@ -113,9 +113,8 @@ namespace Impoint
 
     /**
      * Newton's correction for the last tangent and residual, at @p u. @p first
-     * adds the displacements that conforming boundaries prescribe. Multipliers
-     * of boundaries are brought up to date with it. @p looser tolerances are
-     * enough. Collective.
+     * adds the displacements that conforming boundaries prescribe. Brings
+     * multipliers up to date. @p looser tolerances are enough. Collective.
      */
     void correct(const bool    first,
                  const Vector &u,
