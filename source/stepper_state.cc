@@ -16,8 +16,8 @@ namespace Impoint
             last_step,
             forces,
             newton->residuals(),
-            system->strain_of_forces(),
             totals,
+            system->strain_of_forces(),
             [this]() { return system->condition_numbers(); }};
   }
 

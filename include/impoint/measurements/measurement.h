@@ -44,8 +44,8 @@ namespace Impoint
       std::vector<BoundaryForce<dim>> forces; // of every boundary, as listed in
                                               // the scene; sums of all ranks
       std::vector<double> residuals; // relative, of the step's iteration
-      double strain_of_forces = 0; // what they are relative to, by E h^(dim-1)
-      Totals<dim> totals;          // of the material points
+      Totals<dim>         totals;    // of the material points
+      double strain_of_forces = 0;   // that residuals refer to, by E h^(dim-1)
 
       /** Of the matrix that was solved with last; in follow(). Collective. */
       std::function<ConditionNumbers()> condition_numbers = []() {
