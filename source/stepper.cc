@@ -122,16 +122,17 @@ namespace Impoint
   void Stepper<dim>::begin_step(const double dt, const double end)
   {
     Enforcement::Step<dim> step;
-    step.start = now;
-    step.end   = end;
+    const bool             dynamic = scene.time.moves_after(now);
+    step.start                     = now;
+    step.end                       = end;
     nearby_stiffness.reinit();
     step.ghost_penalty = scene.grid.ghost_factor();
+    step.dynamic       = dynamic;
     step.active        = &active;
     step.points        = points.get();
     step.stiffness     = &nearby_stiffness;
     for (const auto &method : methods)
       method->begin_step(step);
-    const bool dynamic = scene.time.moves_after(now);
     if (dynamic)
       {
         ScopedSeconds timer(seconds.project);

@@ -228,6 +228,7 @@ namespace Impoint
       for_patches(r, [&](const Patch &patch) {
         add_patch(patch, answer(patch, system.u), r, strength, system);
       });
+      add_springs(r, strength, system);
     }
 
 
@@ -321,12 +322,12 @@ namespace Impoint
           answer.traction = shared_tractions[r];
           Patch patch     = make_patch(r, range.begin, range.end);
           patch.reach     = shared_reaches[r];
-          return store(r, patch, answer, shared_gaps[r]);
+          return store(r, u, patch, answer, shared_gaps[r]);
         }
       if (u != nullptr && takes_part(r))
         return for_patches(r, [&](const Patch &patch) {
           // neighbours' multipliers shift it anew in the next step
-          store(r, patch, answer(patch, u), patch.gap(u) - jumps.shift(r));
+          store(r, u, patch, answer(patch, u), patch.gap(u) - jumps.shift(r));
         });
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
@@ -339,22 +340,24 @@ namespace Impoint
 
 
 
-    /** What holds remembers the @p gap that it acts on, the same for all of the
-     * patch: how their own gaps differ is never corrected, grows where the
-     * material flows along the wall, and would be a sudden gap of the next cell
-     * that some of them come to. */
+    /** What holds remembers the gap that it acts on, without springs @p
+     * common_gap: how their own gaps differ is never corrected then, grows
+     * where the material flows along the wall, and would be a sudden gap of the
+     * next cell that some of them come to. */
     template <int dim>
     void GapMethod<dim>::store(const unsigned int            r,
+                               const double                 *u,
                                const Patch                  &patch,
                                const typename Patch::Answer &answer,
                                const Tensor<1, dim>         &common_gap)
     {
-      const auto &slots = this->boundary->slots();
-      const Touch touch = contacts[patch.begin].touch;
+      const auto  &slots = this->boundary->slots();
+      const Touch  touch = contacts[patch.begin].touch;
+      const double k     = spring(r);
       for (unsigned int b = patch.begin; b < patch.end; ++b)
         {
           const Patch    alone = this->alone(r, b);
-          Tensor<1, dim> gap   = common_gap;
+          Tensor<1, dim> gap   = k > 0 ? alone.gap(u) : common_gap;
           if (touch == Touch::open || !is_in(patch, b))
             gap = Tensor<1, dim>();
           else if (touch == Touch::slides)
@@ -368,8 +371,8 @@ namespace Impoint
                 gap += along / patch.law.gamma;
             }
           // what the wall does to the material is minus what the residual holds
-          const Tensor<1, dim> force =
-            this->boundary->held_area(b) * alone.total(answer.traction);
+          const Tensor<1, dim> force = this->boundary->held_area(b) *
+                                       alone.total(answer.traction + k * gap);
           this->boundary->set_vector(b, slots.gap, gap);
           if (!is_in(patch, b))
             continue;

@@ -1,6 +1,7 @@
 #include <impoint/enforcement/held_areas.h>
 #include <impoint/enforcement/wall_facets.h>
 
+#include <cmath>
 #include <numeric>
 
 namespace Impoint
@@ -12,8 +13,8 @@ namespace Impoint
       // Points further from the wall along its normal are not held by it [h].
       constexpr double far_away = 0.5;
 
-      // Points that lie around a particle at this distance [half their edge]
-      // have a gap between them that is none of the material.
+      // Between points at this distance from a particle [half their edge] there
+      // is material, too: Gauss points stand for flat boxes, not for cubes.
       constexpr double around = 2.5;
 
 
@@ -28,21 +29,31 @@ namespace Impoint
 
 
 
-      /** Number of the quadrant (2D: side) about @p normal that @p away, at
-       * right angles to it, points to. */
+      /** Unit vectors at right angles to @p normal, all around. */
       template <int dim>
-      unsigned int quadrant(const Tensor<1, dim> &away,
-                            const Tensor<1, dim> &normal)
+      std::vector<Tensor<1, dim>> ways_aside(const Tensor<1, dim> &normal)
       {
         if constexpr (dim == 2)
-          return away[0] * normal[1] - away[1] * normal[0] > 0;
+          {
+            const Tensor<1, dim> along = cross_product_2d(normal);
+            return {along, -along};
+          }
         else
           {
-            Tensor<1, dim> axis;
+            constexpr unsigned int n = 16;
+            Tensor<1, dim>         axis;
             axis[std::abs(normal[0]) < 0.7 ? 0 : 1] = 1.;
-            const Tensor<1, dim> first = cross_product_3d(normal, axis);
-            return (away * first > 0) +
-                   2 * (away * cross_product_3d(normal, first) > 0);
+            Tensor<1, dim> first = cross_product_3d(normal, axis);
+            first /= first.norm();
+            const Tensor<1, dim> second = cross_product_3d(normal, first);
+            std::vector<Tensor<1, dim>> ways;
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                const double angle = 2 * numbers::PI * i / n;
+                ways.push_back(std::cos(angle) * first +
+                               std::sin(angle) * second);
+              }
+            return ways;
           }
       }
 
@@ -70,7 +81,9 @@ namespace Impoint
 
 
       /** Whether material lies before (or behind) each of @p particles at
-       * @p places (of all particles). Collective. */
+       * @p places (of all particles): seen along the normal, in a point's cube
+       * or not farther than half an edge beside the hull of points around it.
+       * Collective. */
       template <int dim>
       std::vector<char> are_covered(const BoundaryParticles<dim>    &boundary,
                                     const std::vector<unsigned int> &particles,
@@ -78,32 +91,37 @@ namespace Impoint
                                     const BackgroundGrid<dim>       &grid,
                                     const MaterialPoints<dim>       &points)
       {
-        constexpr unsigned int all_ways = (1U << (1U << (dim - 1))) - 1;
-
         const double   h    = grid.smallest_size();
         const MPI_Comm comm = grid.communicator();
         const auto facets   = all_facets(boundary, particles, places, {}, comm);
-        std::vector<unsigned int> ways(facets.size(), 0);
+        // bits: ways in which the hull reaches far enough
+        constexpr unsigned int    all_ways = (1U << (dim == 2 ? 2 : 16)) - 1;
+        std::vector<unsigned int> reached(facets.size(), 0);
         for (unsigned int i = 0; i < facets.size(); ++i)
-          for_points_near(
-            facets[i].new_x, h, grid, points, [&](const unsigned int p) {
-              const Tensor<1, dim> &normal = facets[i].normal;
-              const Tensor<1, dim>  to     = facets[i].new_x - place(points, p);
-              const double          before = to * normal;
-              const double half = half_edge(points, p, boundary.thickness());
-              if (ways[i] == all_ways || before < -h ||
-                  before - half > far_away * h)
-                return;
-              const double distance = aside(to, normal);
-              if (distance <= reach_aside<dim>(half))
-                ways[i] = all_ways;
-              else if (distance <= around * half)
-                ways[i] |= 1U << quadrant(to - before * normal, normal);
-            });
+          {
+            const Tensor<1, dim> &normal = facets[i].normal;
+            const auto            ways   = ways_aside(normal);
+            for_points_near(
+              facets[i].new_x, h, grid, points, [&](const unsigned int p) {
+                const Tensor<1, dim> to = place(points, p) - facets[i].new_x;
+                const double         before = -(to * normal);
+                const double half = half_edge(points, p, boundary.thickness());
+                if (reached[i] == all_ways || before < -h ||
+                    before - half > far_away * h)
+                  return;
+                const double distance = aside(to, normal);
+                if (distance <= reach_aside<dim>(half))
+                  reached[i] = all_ways;
+                else if (distance <= around * half)
+                  for (unsigned int w = 0; w < ways.size(); ++w)
+                    if (to * ways[w] >= -half)
+                      reached[i] |= 1U << w;
+              });
+          }
         // what ranks see of a facet together
-        for (const auto &part : Utilities::MPI::all_gather(comm, ways))
-          for (unsigned int i = 0; i < ways.size(); ++i)
-            ways[i] |= part[i];
+        for (const auto &part : Utilities::MPI::all_gather(comm, reached))
+          for (unsigned int i = 0; i < reached.size(); ++i)
+            reached[i] |= part[i];
 
         const auto counts = Utilities::MPI::all_gather(comm, particles.size());
         const std::size_t first =
@@ -113,7 +131,7 @@ namespace Impoint
                           std::size_t(0));
         std::vector<char> covered(particles.size());
         for (unsigned int i = 0; i < covered.size(); ++i)
-          covered[i] = ways[first + i] == all_ways;
+          covered[i] = reached[first + i] == all_ways;
         return covered;
       }
 
@@ -179,8 +197,7 @@ namespace Impoint
         // Means over all of a cell are the better ones where it ends only for
         // linear functions; a contact waits for what comes.
         if ((method->holds_by_particle() ||
-             (active.basis().degree() > 1 &&
-              method->contact_states() == nullptr)) &&
+             (active.basis().degree() > 1 && method->is_linear())) &&
             method->parameters().is_active(start, end))
           find_held_area(*method, active, points);
     }

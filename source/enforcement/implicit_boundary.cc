@@ -1,5 +1,6 @@
 #include <impoint/enforcement/acoustic_tensor.h>
 #include <impoint/enforcement/implicit_boundary.h>
+#include <impoint/enforcement/particle_springs.h>
 
 #include <algorithm>
 #include <cmath>
@@ -250,11 +251,50 @@ namespace Impoint
 
 
 
+    /** Of particles whose cell is held by a mean [Pa/m]: softer than what the
+     * preconditioner can bear. */
+    template <int dim>
+    double ImplicitBoundary<dim>::spring(const unsigned int r) const
+    {
+      if (holds_each_particle(r))
+        return 0;
+      const unsigned int cell = this->boundary->ranges()[r].cell;
+      return spring_beside_means(this->current) *
+             this->current.stiffness->young(cell) /
+             this->current.active->basis().grid().size(cell);
+    }
+
+
+
+    template <int dim>
+    void ImplicitBoundary<dim>::add_springs(const unsigned int r,
+                                            CellSystem        &system) const
+    {
+      const double k = spring(r);
+      if (k == 0)
+        return;
+      const auto &range = this->boundary->ranges()[r];
+      for (unsigned int b = range.begin; b < range.end; ++b)
+        if (this->boundary->held_area(b) > 0)
+          {
+            const Patch patch = alone(r, b);
+            Patch       spring(patch.n_nodes);
+            spring.area      = patch.area;
+            spring.start_gap = patch.start_gap;
+            spring.share     = patch.share;
+            spring.stiffness = k * unit_symmetric_tensor<dim>();
+            spring.add(1., false, system);
+          }
+    }
+
+
+
     template <int dim>
     void ImplicitBoundary<dim>::add(const unsigned int r,
                                     const Strength     strength,
                                     CellSystem        &system) const
     {
+      add_springs(r, system);
       if (shared.contains(r) || this->boundary->held_area_of_range(r) == 0)
         return;
       if (!holds_each_particle(r))
@@ -295,7 +335,7 @@ namespace Impoint
 
 
 
-    /** Particles remember the gap that is held, the mean where it is one (see
+    /** Particles remember the gap that is held: the mean where it alone is (see
      * GapMethod). */
     template <int dim>
     void ImplicitBoundary<dim>::end_step(const unsigned int r, const double *u)
@@ -321,13 +361,13 @@ namespace Impoint
           Tensor<1, dim> force;
           if (u != nullptr)
             {
-              const Patch patch = alone(r, b);
+              const Patch  patch = alone(r, b);
+              const double k     = spring(r);
+              if (holds_each_particle(r) || k > 0)
+                gap = patch.gap(u);
               if (holds_each_particle(r))
-                {
-                  traction = patch.traction(u);
-                  gap      = patch.gap(u);
-                }
-              force = -patch.area * patch.total(traction);
+                traction = patch.traction(u);
+              force = -patch.area * patch.total(traction + k * gap);
             }
           this->boundary->set_vector(b, slots.force, force);
           this->boundary->set_vector(b, slots.gap, gap);

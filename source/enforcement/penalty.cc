@@ -38,7 +38,7 @@ namespace Impoint
       law.gamma =
         law.augmented ?
           this->enlarge(augmentation_factor * this->unit(r), r, area) :
-          beta;
+          beta - this->spring(r);
       law.compliance = law.augmented ? 1. / beta : 0.;
       return law;
     }

@@ -30,15 +30,19 @@ def collapse(scene, folder, settings=()):
 
 
 def compare_walls():
-    """Nonconforming walls and those on the grid: the same flow within h / 4."""
+    """Nonconforming walls and those on the grid: the same flow within h / 4. Of
+    multipliers' means alone points sank by 0.051 h here, 0.067 h later."""
     short = ["Time/End time = 0.2"]
-    cut = collapse("penalty/4.2-granular-column.prm", "cut", short)[-1]
     fit = collapse("penalty/4.2-granular-column-conforming.prm", "fit",
                    short)[-1]
-    for name in ("run-out 99 %", "centre x", "centre y"):
-        print(f"{name}: {cut[name]:.4f}, conforming {fit[name]:.4f}")
-        # a quarter of a cell; measured: a seventh, the front scatters most
-        expect(abs(cut[name] - fit[name]) < 0.0025, f"{name} of both walls")
+    for enforcement in ("penalty", "lagrange multiplier"):
+        cut = collapse("penalty/4.2-granular-column.prm", "cut", [
+            *short, f"Boundaries/wall/Enforcement = {enforcement}",
+            f"Boundaries/floor/Enforcement = {enforcement}"])[-1]
+        for name in ("run-out 99 %", "centre x", "centre y"):
+            print(f"{enforcement}: {name}: {cut[name]:.4f}, conforming {fit[name]:.4f}")
+            # a quarter of a cell; measured: a seventh, the front scatters most
+            expect(abs(cut[name] - fit[name]) < 0.0025, f"{name} of both walls")
 
 
 def come_to_rest():

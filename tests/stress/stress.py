@@ -22,10 +22,8 @@ LONG = sys.argv[1:2] == ["long"]
 CHOSEN = sys.argv[2:]
 NEAR = [1e-3, 1e-6, 1e-9, 1e-12]
 HARD = [0., *NEAR, *[1. - cut for cut in NEAR]]
-# Those act on the mean gap of a cell: their own error depends on how many rows
-# of cells the clamp has, so the cut along it stays the same.
-BY_CELLS = ["projected penalty", "augmented Lagrangian", "lagrange multiplier"]
-METHODS = ["penalty", "implicit boundary", "nitsche", *BY_CELLS]
+METHODS = ["penalty", "implicit boundary", "nitsche", "projected penalty",
+           "lagrange multiplier", "augmented Lagrangian"]
 # points a direction that serve the basis
 BASES = {"linear": 2, "quadratic spline": 3, "cubic spline": 4, "quadratic": 3}
 GHOST = "Grid/Ghost penalty = 1e-3"
@@ -51,8 +49,9 @@ def box(h, cut, cut_y, aspect=1.):
             f"Grid/Shift = {-hx * (1 + cut)!r}, {-h * (1 + cut_y)!r}"]
 
 
-def series(name, places, settings_of, even, bound=2.):
-    """The runs at all places; errors against the median of the first even ones."""
+def series(name, places, settings_of, even, bound=2., least=0.):
+    """The runs at all places; errors against the median of the first even ones, if
+    it is above least: errors of two signs cancel here and there."""
     errors, messages = {}, []
     for place in places:
         status, text, summary = run(CANTILEVER, settings_of(place))
@@ -72,9 +71,9 @@ def series(name, places, settings_of, even, bound=2.):
           f"{median:.2e}, worst {ratio:.2f} times at {worst}", flush=True)
     if messages:
         print("  e.g. " + messages[0][:160])
-    if errors and not ratio <= bound:
+    if errors and not errors[worst] <= bound * max(median, least):
         fail(f"{name}: error {errors.get(worst)} at {worst}, median {median}")
-    return errors, messages
+    return errors, messages, median
 
 
 def cuts():
@@ -85,16 +84,19 @@ def cuts():
     if not LONG:
         hard = [(0., 0.3), (1 - 1e-6, 0.3), (1e-9, 1 - 1e-9), (0.3, 1e-12)]
     for basis, points in BASES.items():
-        for method in METHODS if LONG else METHODS[:4]:
+        least = 0.
+        for method in METHODS if LONG else METHODS[:5]:
             def settings(place):
-                along = 0.3 if method in BY_CELLS else place[1]
-                return [*OUTLINE, *box(0.5, place[0], along), GHOST,
+                return [*OUTLINE, *box(0.5, *place), GHOST,
                         f"Grid/Basis = {basis}",
                         f"Bodies/beam/Points per direction = {points}",
                         # with two of them, Nitsche's error of cubic splines has outliers of 16 medians
                         f"Boundaries/clamp/Particles per segment = {points}",
                         f"Boundaries/clamp/Enforcement = {method}"]
-            series(f"cuts, {basis}, {method}", [*drawn, *hard], settings, even)
+            _, _, median = series(f"cuts, {basis}, {method}", [*drawn, *hard],
+                                  settings, even, least=least)
+            if method == "nitsche":
+                least = median
 
 
 def accuracy():
@@ -106,7 +108,7 @@ def accuracy():
             places = [(generator.random(), generator.random()) for _ in range(even)]
             near = [*NEAR[1:], *[1. - cut for cut in NEAR[1:]]]
             places += [(cut, 0.3) for cut in near] + [(0.3, cut) for cut in near]
-            errors, messages = series(
+            errors, messages, _ = series(
                 f"accuracy, {basis}, h = 2^-{level + 1}", places if LONG else places[::4], lambda place: [
                     *OUTLINE, *box(0.5**(level + 1), *place), GHOST, f"Grid/Basis = {basis}",
                     f"Bodies/beam/Points per direction = {BASES[basis]}",
@@ -121,7 +123,7 @@ def accuracy():
 def factors():
     powers = range(0, 31) if LONG else range(2, 31, 7)
     for basis in ("linear", "quadratic spline"):
-        errors, messages = series(
+        errors, messages, _ = series(
             f"factors, {basis}", [*powers], lambda power: [
                 *OUTLINE, *box(0.5, 0.4, 0.3), f"Grid/Basis = {basis}",
                 "Bodies/beam/Points per direction = 3",
@@ -171,7 +173,12 @@ def slender_cells():
             series(f"cells 1:20, {aspect}, {basis}", [0.5, 0.3, 0.7, 1e-6, 1 - 1e-6],
                    lambda cut: [*OUTLINE, *box(h, cut, 0.3, aspect),
                                 f"Grid/Basis = {basis}", GHOST,
-                                f"Bodies/beam/Points per direction = {points}"], 3)
+                                # a penalty's own gap is of the size of cubic splines' error
+                                "Boundaries/clamp/Enforcement = lagrange multiplier",
+                                f"Bodies/beam/Points per direction = {points}"], 3,
+                   # Their own error on eight cells, by every enforcement and any ghost
+                   # penalty: 4 times as much where the clamp lies on a face of the grid.
+                   5. if basis == "cubic spline" else 2.)
 
 
 def overload():

@@ -23,6 +23,7 @@ namespace Impoint
     {
       double                      start = 0, end = 0; // time [s]
       double                      ghost_penalty = 0;  // factor; 0: none
+      bool                        dynamic       = false;
       const ActiveNodes<dim>     *active        = nullptr;
       const MaterialPoints<dim>  *points        = nullptr;
       const NearbyStiffness<dim> *stiffness     = nullptr;

@@ -16,7 +16,8 @@ namespace Impoint
      * gap is the total one, carried from step to step by the particles; a patch
      * is one particle, all particles of a cell, or those of a link. Each opens,
      * sticks and slides as a whole: multipliers that are not independent
-     * (SharedConstraints) would open and close in turn for ever.
+     * (SharedConstraints) would open and close in turn for ever. What touches
+     * without end has springs beside its means (spring()).
      *
      * A multiplier is found within a linear solve by lambda <- t (see
      * TractionLaw), whose fixed point is t = g / c, or g = 0 for a compliance
@@ -93,6 +94,11 @@ namespace Impoint
 
       double unit(const unsigned int r) const; // E/h [Pa/m]
 
+      /** Of the springs that hold each particle's own gap beside the mean, no
+       * stiffer than what the scene asks for: of a penalty they are a part
+       * [Pa/m]. */
+      double spring(const unsigned int r) const;
+
       /** The factor of the scene [Pa/m]. */
       double factor(const unsigned int r) const;
 
@@ -152,7 +158,12 @@ namespace Impoint
                      const Strength                strength,
                      CellSystem                   &system) const;
 
+      void add_springs(const unsigned int r,
+                       const Strength     strength,
+                       CellSystem        &system) const;
+
       void store(const unsigned int            r,
+                 const double                 *u,
                  const Patch                  &patch,
                  const typename Patch::Answer &answer,
                  const Tensor<1, dim>         &common_gap);

@@ -79,9 +79,13 @@ namespace Impoint
 
       Patch alone(const unsigned int r, const unsigned int b) const;
       Patch mean(const unsigned int r) const;
-      void  add_patch(const Patch   &patch,
-                      const Strength strength,
-                      CellSystem    &system) const;
+
+      double spring(const unsigned int r) const;
+      void   add_springs(const unsigned int r, CellSystem &system) const;
+
+      void add_patch(const Patch   &patch,
+                     const Strength strength,
+                     CellSystem    &system) const;
 
       const bool             slip;
       NodalNormals<dim>      normals; // of a slip boundary
