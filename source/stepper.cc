@@ -54,7 +54,7 @@ namespace Impoint
                                                     seconds);
     system->add_term(
       std::make_unique<InternalForce<dim>>(*points, &end_states));
-    system->set_ghost_penalty(scene.grid.ghost_factor());
+    system->set_ghost_penalty(scene.ghost_factor());
     newton = std::make_unique<Newton<dim>>(scene.newton, *system, counters);
     if (with_particles)
       totals = Measurements::totals(*points, comm);
@@ -126,7 +126,7 @@ namespace Impoint
     step.start                     = now;
     step.end                       = end;
     nearby_stiffness.reinit();
-    step.ghost_penalty = scene.grid.ghost_factor();
+    step.ghost_penalty = scene.ghost_factor();
     step.dynamic       = dynamic;
     step.active        = &active;
     step.points        = points.get();

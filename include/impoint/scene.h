@@ -9,6 +9,7 @@
 #include <impoint/solver/newton.h>
 #include <impoint/solver/time_parameters.h>
 
+#include <algorithm>
 #include <deque>
 #include <string>
 #include <vector>
@@ -49,6 +50,19 @@ namespace Impoint
     {
       return !boundaries[i].conforming ||
              conditions[i].constraint == Constraint::traction;
+    }
+
+    /** Of the ghost penalty; 0: none. Nitsche's method in its symmetric form
+     * is stable for small strains, and linear functions in a sliver of a cell
+     * strain as they like: curved boundaries cost it steps. */
+    double ghost_factor() const
+    {
+      return grid.ghost_factor(
+        !time.is_dynamic() && std::any_of(conditions.begin(),
+                                          conditions.end(),
+                                          [](const auto &condition) {
+                                            return condition.carries_material();
+                                          }));
     }
 
     /** What is allowed but doubtful, for a person to judge. */

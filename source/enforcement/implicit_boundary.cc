@@ -158,9 +158,9 @@ namespace Impoint
         *this, active, [&](const unsigned int r, const unsigned int) {
           bears_each[r] =
             choice == Superfluous::keep ||
-            !ConstrainedCells<dim>::nodes_are_vertices(active.basis(),
-                                                       ranges[r].cell) ||
             (choice == Superfluous::automatic &&
+             ConstrainedCells<dim>::nodes_are_vertices(active.basis(),
+                                                       ranges[r].cell) &&
              bears_each_particle(r, active));
         });
       shared.find_groups(*this->boundary, active, [&](const unsigned int r) {

@@ -167,8 +167,9 @@ namespace Impoint
       "Part of Young's modulus with which neighbours hold the functions of "
       "cells filled by less than 0.3, so that the error does not depend on how "
       "little that is: 1e-3 serves all bases, more adds to the error; 0: none; "
-      "-1: none for 'linear', which a cut costs next to nothing, 1e-3 for the "
-      "others, whose errors grow up to 3000 times without.",
+      "-1: 1e-3, for 'linear', which a cut costs next to nothing, only in "
+      "statics where 'nitsche' holds a boundary; errors of the others grow up "
+      "to 3000 times without.",
       Patterns::Double(-1));
     prm.add_parameter(
       "Reset",

@@ -1,6 +1,6 @@
-"""Splines on points from the outline: errors of the cantilever (paper P, 4.1) in
-small strains, as a prototype of the method has them, on cells that cut all of its
-sides; conforming boundaries on splines."""
+"""Bases of degree two and three on points from the outline: errors of the cantilever
+(paper P, 4.1) in small strains, on cells that cut all of its sides, and of a ring
+held at a curve; conforming boundaries on splines."""
 
 from math import cos, radians, sin
 
@@ -34,7 +34,7 @@ def check_cantilever():
     errors as by Nitsche's method, on inclined clamps, too (means alone: 8e-4,
     8e-5, 8e-6, inclined 1e-2). A penalty's own gap is 5e-6."""
     for enforcement, gap in (("nitsche", 0), ("lagrange multiplier", 0),
-                             ("augmented Lagrangian", 0),
+                             ("augmented Lagrangian", 0), ("implicit boundary", 0),
                              ("projected penalty", 5e-6)):
         for angle in (0, 30):
             more = [f"Boundaries/clamp/Enforcement = {enforcement}",
@@ -64,6 +64,29 @@ def check_cantilever():
             expect(error < bound, f"{basis}: error {error}")
 
 
+def check_ring():
+    """A curved boundary: each particle held for itself locks (2e-2)."""
+    for basis, enforcement, bound in (
+            ("quadratic spline", "lagrange multiplier", 2e-4),
+            ("quadratic spline", "implicit boundary", 2e-4),
+            ("quadratic spline", "projected penalty", 2e-4),
+            ("quadratic spline", "nitsche", 1e-4),
+            ("quadratic", "lagrange multiplier", 1e-4),
+            ("linear", "lagrange multiplier", 6e-3),
+            # 22 steps while slivers had no bound
+            ("linear", "nitsche", 6e-3)):
+        summary = run_scene("beyond/held-ring.prm", "ring", [
+            "Output/Pictures every = 0", f"Grid/Basis = {basis}",
+            f"Boundaries/hub/Enforcement = {enforcement}"])
+        results, counts = summary["results"], summary["counts"]
+        error = max(results[f"top u_{x}"]["error"] for x in "xy")
+        print(f"ring, {basis}, {enforcement}: {error:.1e}, "
+              f"{counts['newton iterations']} iterations")
+        expect(error < bound and counts["newton iterations"] <= 4,
+               f"ring, {basis}, {enforcement}")
+        expect(abs(results["support M_z"]["value"]) < 1e-4, "moment of the hub")
+
+
 def check_conforming():
     """A clamp on the grid's side holds every place of it, at no error but that
     of the functions: the same without the part of the grid outside of it."""
@@ -81,4 +104,5 @@ def check_conforming():
 
 
 check_cantilever()
+check_ring()
 check_conforming()

@@ -34,6 +34,8 @@ namespace Impoint
      * then acts on the part of u that varies as slowly). They bear it where the
      * boundary runs along a face, or in quadrilaterals and hexahedra along a
      * direction of the cell: there the nodes of one side are as good as held.
+     * On functions of higher degree it is the cell's mean, with springs
+     * (spring_beside_means()).
      *
      * A slice of material thinner than the band has K2 in proportion: the band
      * goes on in the next cell, and K2 whole would make the matrix indefinite.

@@ -14,11 +14,12 @@ namespace Impoint
      *
      * One mean a cell is a good constraint of linear functions, and less than
      * what functions of higher degree can bear, so that these turn and bend at
-     * the wall: the cantilever of paper P on quadratic splines, its clamp along
-     * two and a half cells, errs by 1e-2 with multipliers alone, by 1.5e-4 (as
-     * with Nitsche's method) with springs of 1e3; those of cubic ones take
-     * three times that. With ten times as much they begin to lock where walls
-     * are inclined.
+     * the wall: the cantilever of paper P on quadratic splines, its inclined
+     * clamp along two and a half cells, errs by 1e-2 with multipliers alone, by
+     * 8e-5 (Nitsche's method: 9e-5) with these springs. Stiffer ones lock where
+     * walls are inclined or curved: ten times as stiff, errors there are 2 to
+     * 10 times as large; a tenth leaves coarse clamps at 4e-4. Cubic ones want
+     * ten times those of quadratic ones.
      *
      * What moves flows past a wall for thousands of steps, and its particles'
      * gaps would grow apart unseen by their mean: sand on triangles sank by
@@ -27,9 +28,9 @@ namespace Impoint
     template <int dim>
     double spring_beside_means(const Step<dim> &step)
     {
-      constexpr double   soft = 1., firm = 125.;
+      constexpr double   soft = 1., firm = 5.;
       const unsigned int p = step.active->basis().degree();
-      return p > 1        ? firm * Utilities::fixed_power<3>(double(p)) :
+      return p > 1        ? firm * Utilities::fixed_power<6>(double(p)) :
              step.dynamic ? soft :
                             0.;
     }

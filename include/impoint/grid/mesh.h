@@ -80,13 +80,14 @@ namespace Impoint
 
     double ghost_penalty = -1; // entry; below 0: automatic
 
-    /** Factor of Young's modulus; 0: no ghost penalty. */
-    double ghost_factor() const
+    /** Factor of Young's modulus; 0: no ghost penalty. @p cuts_matter: even to
+     * linear functions. */
+    double ghost_factor(const bool cuts_matter) const
     {
       constexpr double smallest_that_serves = 1e-3;
       if (ghost_penalty >= 0)
         return ghost_penalty;
-      return degree() > 1 ? smallest_that_serves : 0.;
+      return degree() > 1 || cuts_matter ? smallest_that_serves : 0.;
     }
 
     std::string reset = "every step"; // every step|never
