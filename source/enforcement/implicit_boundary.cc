@@ -31,6 +31,27 @@ namespace Impoint
 
 
 
+    /** Part of a cell's material, of @p volume, that K2 in the mean of range
+     * @p r can lean on: a corner of size s sees (s/h)^(dim p - 1) of the
+     * gradient that the boundary beside it sees of the farthest function. */
+    template <int dim>
+    double ImplicitBoundary<dim>::seen_by_material(const unsigned int r,
+                                                   const double volume) const
+    {
+      const auto &basis = this->current.active->basis();
+      if (holds_each_particle(r) ||
+          (basis.grid().simplicial() && basis.degree() == 1))
+        return volume;
+      const double     h = basis.grid().size(this->boundary->ranges()[r].cell);
+      constexpr double corner = 0.01; // larger ones hold K2 well enough
+      const double     part =
+        volume / this->boundary->thickness() / Utilities::fixed_power<dim>(h);
+      const double power = 2. * basis.degree() - 2. / dim;
+      return part < corner ? volume * std::pow(part, power) : volume;
+    }
+
+
+
     template <int dim>
     typename ImplicitBoundary<dim>::CellState
     ImplicitBoundary<dim>::cell_state(const unsigned int r) const
@@ -62,7 +83,8 @@ namespace Impoint
       // of a band without material before it nothing is asked
       const double area = this->boundary->held_area_of_range(r);
       if (area > 0)
-        state.filled = std::min(1., volume / (band_width(r) * area));
+        state.filled =
+          std::min(1., seen_by_material(r, volume) / (band_width(r) * area));
       state.tangent = points.material(range.begin).elastic_tangent();
       return state;
     }
@@ -277,12 +299,10 @@ namespace Impoint
       for (unsigned int b = range.begin; b < range.end; ++b)
         if (this->boundary->held_area(b) > 0)
           {
-            const Patch patch = alone(r, b);
-            Patch       spring(patch.n_nodes);
-            spring.area      = patch.area;
-            spring.start_gap = patch.start_gap;
-            spring.share     = patch.share;
-            spring.stiffness = k * unit_symmetric_tensor<dim>();
+            Patch spring = alone(r, b);
+            spring.flux.assign(spring.n_nodes, {});
+            spring.start_traction = {};
+            spring.stiffness      = k * unit_symmetric_tensor<dim>();
             spring.add(1., false, system);
           }
     }

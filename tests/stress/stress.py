@@ -22,7 +22,7 @@ LONG = sys.argv[1:2] == ["long"]
 CHOSEN = sys.argv[2:]
 NEAR = [1e-3, 1e-6, 1e-9, 1e-12]
 HARD = [0., *NEAR, *[1. - cut for cut in NEAR]]
-METHODS = ["penalty", "implicit boundary", "nitsche", "projected penalty",
+METHODS = ["nitsche", "penalty", "implicit boundary", "projected penalty",
            "lagrange multiplier", "augmented Lagrangian"]
 # points a direction that serve the basis
 BASES = {"linear": 2, "quadratic spline": 3, "cubic spline": 4, "quadratic": 3}

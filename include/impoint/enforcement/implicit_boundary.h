@@ -74,10 +74,11 @@ namespace Impoint
       };
 
       CellState cell_state(const unsigned int r) const;
-      double    band_width(const unsigned int r) const; // delta [m]
-      bool      bears_each_particle(const unsigned int      r,
-                                    const ActiveNodes<dim> &active) const;
-      bool      holds_each_particle(const unsigned int r) const;
+      double seen_by_material(const unsigned int r, const double volume) const;
+      double band_width(const unsigned int r) const; // delta [m]
+      bool   bears_each_particle(const unsigned int      r,
+                                 const ActiveNodes<dim> &active) const;
+      bool   holds_each_particle(const unsigned int r) const;
 
       Patch alone(const unsigned int r, const unsigned int b) const;
       Patch mean(const unsigned int r) const;
