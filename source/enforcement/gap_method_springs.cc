@@ -25,19 +25,15 @@ namespace Impoint
       const double k = spring(r);
       if (k == 0 || !takes_part(r))
         return;
-      const double         part = strength == Strength::moderate ?
-                                    std::min(1., moderate_factor * unit(r) / k) :
-                                    1.;
       const Tensor<2, dim> one(unit_symmetric_tensor<dim>());
       const auto          &range = this->boundary->ranges()[r];
       for (unsigned int b = range.begin; b < range.end; ++b)
         if (this->boundary->held_area(b) > 0)
           {
-            Patch patch = alone(r, b);
-            patch.area  = this->boundary->held_area(b);
-            patch.add_force(k * patch.gap(system.u), system);
-            if (system.matrix != nullptr)
-              patch.add_stiffness(part * k * one, system);
+            Patch patch     = alone(r, b);
+            patch.area      = this->boundary->held_area(b);
+            patch.law.gamma = k;
+            add_patch(patch, {patch.trial(system.u), one}, r, strength, system);
           }
     }
 

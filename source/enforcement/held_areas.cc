@@ -1,6 +1,7 @@
 #include <impoint/enforcement/held_areas.h>
 #include <impoint/enforcement/wall_facets.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -29,29 +30,31 @@ namespace Impoint
 
 
 
+      template <int dim>
+      constexpr unsigned int n_ways = dim == 2 ? 2 : 16;
+
       /** Unit vectors at right angles to @p normal, all around. */
       template <int dim>
-      std::vector<Tensor<1, dim>> ways_aside(const Tensor<1, dim> &normal)
+      std::array<Tensor<1, dim>, n_ways<dim>>
+      ways_aside(const Tensor<1, dim> &normal)
       {
         if constexpr (dim == 2)
           {
             const Tensor<1, dim> along = cross_product_2d(normal);
-            return {along, -along};
+            return {{along, -along}};
           }
         else
           {
-            constexpr unsigned int n = 16;
-            Tensor<1, dim>         axis;
+            Tensor<1, dim> axis;
             axis[std::abs(normal[0]) < 0.7 ? 0 : 1] = 1.;
             Tensor<1, dim> first = cross_product_3d(normal, axis);
             first /= first.norm();
             const Tensor<1, dim> second = cross_product_3d(normal, first);
-            std::vector<Tensor<1, dim>> ways;
-            for (unsigned int i = 0; i < n; ++i)
+            std::array<Tensor<1, dim>, n_ways<dim>> ways;
+            for (unsigned int i = 0; i < ways.size(); ++i)
               {
-                const double angle = 2 * numbers::PI * i / n;
-                ways.push_back(std::cos(angle) * first +
-                               std::sin(angle) * second);
+                const double angle = 2 * numbers::PI * i / ways.size();
+                ways[i] = std::cos(angle) * first + std::sin(angle) * second;
               }
             return ways;
           }
@@ -95,7 +98,7 @@ namespace Impoint
         const MPI_Comm comm = grid.communicator();
         const auto facets   = all_facets(boundary, particles, places, {}, comm);
         // bits: ways in which the hull reaches far enough
-        constexpr unsigned int    all_ways = (1U << (dim == 2 ? 2 : 16)) - 1;
+        constexpr unsigned int    all_ways = (1U << (n_ways<dim>)) - 1;
         std::vector<unsigned int> reached(facets.size(), 0);
         for (unsigned int i = 0; i < facets.size(); ++i)
           {

@@ -375,14 +375,14 @@ namespace Impoint
           traction          = patch.traction(u);
           gap               = patch.gap(u);
         }
+      const double k = u != nullptr ? spring(r) : 0.;
       for (unsigned int b = range.begin; b < range.end; ++b)
         {
           // what comes here next is met without a gap
           Tensor<1, dim> force;
           if (u != nullptr)
             {
-              const Patch  patch = alone(r, b);
-              const double k     = spring(r);
+              const Patch patch = alone(r, b);
               if (holds_each_particle(r) || k > 0)
                 gap = patch.gap(u);
               if (holds_each_particle(r))

@@ -22,6 +22,7 @@ LONG = sys.argv[1:2] == ["long"]
 CHOSEN = sys.argv[2:]
 NEAR = [1e-3, 1e-6, 1e-9, 1e-12]
 HARD = [0., *NEAR, *[1. - cut for cut in NEAR]]
+# nitsche first: the others' cuts are held against its median, too
 METHODS = ["nitsche", "penalty", "implicit boundary", "projected penalty",
            "lagrange multiplier", "augmented Lagrangian"]
 # points a direction that serve the basis
